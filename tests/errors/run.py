@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+"""A wrong scene must end with the right message. Usage: run.py <arenite> <scene.prm>
+
+Comment lines of the scene say what must happen:
+
+    # EXPECT: <regular expression>     found exactly once in the standard error output; may be given several times
+    # EXIT: 2                          exit code (default 2)
+    # ARGS: check {file}               instead of  run {file} --output {out};  {folder} is the folder of the scene
+    # RANKS: 2                         processes (default 1); the message must still come once
+
+Whatever the mistake, the message has at most 10 lines and no stack trace, and comes within 60 s.
+"""
+import os, re, shlex, subprocess, sys, tempfile
+from pathlib import Path
+
+MOST_LINES = 10
+SECONDS = 60
+UNFRIENDLY = re.compile(r"stack ?trace|backtrace|terminate called|what\(\):|core dumped|An error occurred in line"
+                        r"|MPI_ABORT|Segmentation fault|Assertion", re.IGNORECASE)
+
+
+def command(arguments, ranks):
+    """The arguments, under mpirun for more than one rank."""
+    mpirun = [os.environ.get("ARENITE_MPIRUN", "mpirun"), "--quiet", "-n", str(ranks)] if ranks > 1 else []
+    return mpirun + [str(a) for a in arguments]
+
+
+def directives(scene):
+    """All '# NAME: value' lines of the scene: name -> list of values."""
+    found = {}
+    for line in Path(scene).read_text(errors="replace").splitlines():
+        match = re.match(r"^\s*#\s*([A-Z]{4,}):\s*(.*?)\s*$", line)
+        if match:
+            found.setdefault(match[1], []).append(match[2])
+    return found
+
+
+def problems(arenite, scene):
+    scene = Path(scene).resolve()
+    wanted = directives(scene)
+    unknown = set(wanted) - {"EXPECT", "EXIT", "ARGS", "RANKS", "LABEL", "TIMEOUT"}
+    if unknown:
+        return [f"unknown comment lines: {', '.join(sorted(unknown))}"]
+    if "EXPECT" not in wanted:
+        return ["the scene has no line '# EXPECT: <regular expression>'"]
+    ranks = int(wanted.get("RANKS", ["1"])[0])
+    code = int(wanted.get("EXIT", ["2"])[0])
+    with tempfile.TemporaryDirectory(prefix="arenite-") as folder:
+        places = {"{file}": str(scene), "{out}": f"{folder}/output", "{folder}": str(scene.parent)}
+        arguments = shlex.split(wanted.get("ARGS", ["run {file} --output {out}"])[0])
+        for place, path in places.items():
+            arguments = [a.replace(place, path) for a in arguments]
+        try:
+            done = subprocess.run(command([arenite] + arguments, ranks), cwd=folder, stdin=subprocess.DEVNULL,
+                                  capture_output=True, text=True, errors="replace", timeout=SECONDS)
+        except subprocess.TimeoutExpired:
+            return [f"no end after {SECONDS} s"]
+    print(f"exit code {done.returncode}, standard error output:\n{done.stderr}", end="")
+
+    found = []
+    if done.returncode != code:
+        found.append(f"exit code is {done.returncode}, must be {code}")
+    for expression in wanted["EXPECT"]:
+        times = len(re.findall(expression, done.stderr))
+        if times != 1:
+            found.append(f"standard error output has {times} instead of 1 match of: {expression}")
+    if UNFRIENDLY.search(done.stderr):
+        found.append(f"standard error output contains '{UNFRIENDLY.search(done.stderr)[0]}'")
+    if len(done.stderr.splitlines()) > MOST_LINES:
+        found.append(f"the message has {len(done.stderr.splitlines())} lines, at most {MOST_LINES} are readable")
+    return found
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    found = problems(sys.argv[1], sys.argv[2])
+    print("".join(f"FAILED: {p}\n" for p in found) or "passed\n", end="")
+    sys.exit(bool(found))
