@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+
+namespace Arenite
+{
+/// Isotropic linear elasticity: sigma = lambda tr(epsilon) I + 2 G epsilon, tension positive.
+struct LinearElastic
+{
+  double density       = 0.; ///< [kg/m^3]
+  double bulk_modulus  = 0.; ///< K [Pa]
+  double shear_modulus = 0.; ///< G [Pa]
+
+  /// lambda = K - 2 G / 3 [Pa]
+  constexpr double lame_lambda() const { return bulk_modulus - 2. / 3. * shear_modulus; }
+
+  /// sqrt((K + 4 G / 3) / rho) [m/s]
+  double p_wave_speed() const { return std::sqrt((bulk_modulus + 4. / 3. * shear_modulus) / density); }
+
+  /// sqrt(G / rho) [m/s]
+  double s_wave_speed() const { return std::sqrt(shear_modulus / density); }
+
+  /// E = 9 K G / (3 K + G) [Pa]
+  constexpr double young_modulus() const
+  {
+    return 9. * bulk_modulus * shear_modulus / (3. * bulk_modulus + shear_modulus);
+  }
+
+  /// nu = (3 K - 2 G) / (6 K + 2 G)
+  constexpr double poisson_ratio() const
+  {
+    return (3. * bulk_modulus - 2. * shear_modulus) / (6. * bulk_modulus + 2. * shear_modulus);
+  }
+};
+} // namespace Arenite

@@ -1,0 +1,93 @@
+#include <arenite/verification/free_vibration.h>
+#include <arenite/verification/manufactured.h>
+#include <arenite/verification/plane_wave.h>
+#include <arenite/verification/solution_choice.h>
+#include <arenite/verification/spherical_cavity.h>
+
+namespace Arenite
+{
+using namespace dealii;
+
+template <int dim>
+void SolutionChoice<dim>::declare_parameters(Parameters &parameters)
+{
+  const auto section = parameters.section("Verification");
+  parameters.add_choice(
+    "Exact solution", type,
+    {"none", "spherical cavity", "plane wave", "breathing mode", "torsion mode", "Lame mode", "shear mode",
+     "manufactured cube", "manufactured shell"},
+    "Closed form to compare with. The waves take their pressure from the scene's first pressure load; manufactured "
+    "solutions add their body force.");
+  parameters.add_quantity("Inner radius", inner_radius, "m", non_negative,
+                          "Cavity radius, or inner radius of a vibrating shell (0: ball).");
+  parameters.add_quantity("Outer radius", outer_radius, "m", positive, "Radius of a vibrating ball or shell.");
+  parameters.add_quantity("Side", side, "m", positive, "Side of the cube or height of the layer.");
+  parameters.add_quantity("Amplitude", amplitude, "m", positive,
+                          "Largest displacement of a mode or manufactured solution.");
+  parameters.add_quantity("Angular frequency", frequency, "1/s", positive, "Of a manufactured solution.");
+  parameters.add_integer("Mode", mode, 1, 100, "Number of the mode, from 1.");
+}
+
+template <int dim>
+std::shared_ptr<const ExactSolution<dim>> SolutionChoice<dim>::make(const Parameters                  &parameters,
+                                                                    const LinearElastic               &material,
+                                                                    std::shared_ptr<const TimeHistory> pressure) const
+{
+  const std::string entry = "Verification/Exact solution";
+  if ((type == "spherical cavity" || type == "plane wave") && !pressure)
+    parameters.refuse(entry, "needs a load of type 'pressure' in the scene");
+  if (type == "spherical cavity")
+    return std::make_shared<SphericalCavity<dim>>(material, inner_radius, pressure);
+  if (type == "plane wave")
+    {
+      auto wave = std::make_shared<PlaneWave<dim>>(material, pressure);
+      wave->finalize();
+      return wave;
+    }
+  std::shared_ptr<FreeVibration<dim>> vibration;
+  if (type == "breathing mode")
+    {
+      if (inner_radius >= outer_radius)
+        parameters.refuse("Verification/Outer radius", "must be larger than 'Inner radius'");
+      vibration = std::make_shared<BreathingMode<dim>>(material, inner_radius, outer_radius, mode);
+    }
+  else if (type == "Lame mode")
+    vibration = std::make_shared<LameMode<dim>>(material, side, mode);
+  else if (type == "shear mode")
+    vibration = std::make_shared<ShearMode<dim>>(material, side, mode);
+  if constexpr (dim == 3)
+    if (type == "torsion mode")
+      vibration = std::make_shared<TorsionMode>(material, outer_radius, mode);
+  if (vibration)
+    {
+      vibration->amplitude = amplitude;
+      vibration->finalize();
+      return vibration;
+    }
+  if (type == "manufactured cube")
+    {
+      Tensor<1, dim> d, k;
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          d[i] = amplitude * (1. - 0.3 * i);
+          k[i] = numbers::PI / side;
+        }
+      return std::make_shared<ManufacturedCube<dim>>(material, d, k, frequency, 0.4);
+    }
+  if constexpr (dim == 3)
+    if (type == "manufactured shell")
+      {
+        ManufacturedShell::Motion motion;
+        motion.breathing           = amplitude;
+        motion.twist               = amplitude / inner_radius;
+        motion.breathing_number    = 2. / inner_radius;
+        motion.twist_number        = 1.5 / inner_radius;
+        motion.breathing_frequency = frequency;
+        motion.twist_frequency     = 0.8 * frequency;
+        return std::make_shared<ManufacturedShell>(material, inner_radius, motion);
+      }
+  return nullptr;
+}
+
+template class SolutionChoice<3>;
+} // namespace Arenite
