@@ -1,0 +1,194 @@
+#include <arenite/mesh/geometry.h>
+#include <arenite/mesh/imported_mesh.h>
+#include <arenite/mesh/round_bodies.h>
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Arenite
+{
+using namespace dealii;
+
+template <int dim>
+std::vector<types::boundary_id> Geometry<dim>::boundary_ids(const Parameters &parameters, const std::string &path,
+                                                            const std::vector<std::string> &list) const
+{
+  std::vector<types::boundary_id> ids;
+  for (const std::string &name : list)
+    {
+      const auto position = std::find(names.begin(), names.end(), name);
+      if (position == names.end())
+        parameters.refuse(path, "'" + name + "' is not a boundary of this mesh." + suggestion(name, names));
+      ids.push_back(static_cast<types::boundary_id>(position - names.begin()));
+    }
+  return ids;
+}
+
+namespace
+{
+/// Axis-parallel box.
+template <int dim>
+class Box : public Geometry<dim>
+{
+public:
+  Box()
+  {
+    for (const std::string axis : {"x", "y", "z"})
+      {
+        if (this->names.size() == 2 * dim)
+          break;
+        this->names.push_back(axis + " min");
+        this->names.push_back(axis + " max");
+      }
+    for (unsigned int d = 0; d < dim; ++d)
+      upper[d] = 1.;
+    cells.assign(dim, "1");
+  }
+
+  void declare_parameters(Parameters &parameters) override
+  {
+    parameters.add_vector("Lower corner", lower, "m", "Corner with the smallest coordinates.");
+    parameters.add_vector("Upper corner", upper, "m", "Corner with the largest coordinates.");
+    parameters.add_list("Cells", cells, "Coarse cells along x, y, z.");
+    parameters.add_quantity(
+      "Distortion", distortion, "-", {0., 0.4, false, false},
+      "Moves the coarse vertices by up to this part of a cell, for tests of accuracy; 0 keeps bricks.");
+    path = parameters.current_path();
+  }
+
+  void finalize(const Parameters &parameters) override
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (upper[d] <= lower[d])
+        parameters.refuse(path + "/Upper corner", "every coordinate must be larger than that of 'Lower corner'");
+    if (cells.size() != dim)
+      parameters.refuse(path + "/Cells", "needs " + std::to_string(dim) + " numbers");
+    for (const std::string &n : cells)
+      {
+        const bool digits = !n.empty() && n.size() <= 6 &&
+                            std::all_of(n.begin(), n.end(), [](const char c) { return c >= '0' && c <= '9'; });
+        if (!digits || std::stoi(n) < 1)
+          parameters.refuse(path + "/Cells", "'" + n + "' is not a positive number of cells");
+        repetitions.push_back(std::stoi(n));
+      }
+  }
+
+  void create(Triangulation<dim> &triangulation) const override
+  {
+    GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions, Point<dim>(lower), Point<dim>(upper), true);
+    if (distortion == 0.)
+      return;
+    const Tensor<1, dim> size = upper - lower;
+    double               h    = size[0] / repetitions[0];
+    for (unsigned int d = 1; d < dim; ++d)
+      h = std::min(h, size[d] / repetitions[d]);
+    // an irregular but repeatable displacement; vertices stay on the planes of the box
+    GridTools::transform(
+      [&](const Point<dim> &x) {
+        Point<dim> y = x;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (x[d] > lower[d] + 1e-10 * size[d] && x[d] < upper[d] - 1e-10 * size[d])
+            {
+              double phase = 1.3 * d;
+              for (unsigned int e = 0; e < dim; ++e)
+                phase += (2.1 + 1.7 * ((d + e) % dim)) * (x[e] - lower[e]) / h;
+              y[d] += distortion * h * std::sin(phase);
+            }
+        return y;
+      },
+      triangulation);
+  }
+
+private:
+  Tensor<1, dim>            lower, upper;
+  std::vector<std::string>  cells;
+  std::vector<unsigned int> repetitions;
+  double                    distortion = 0.;
+  std::string               path;
+};
+
+/// Prismatic bar along x with its own boundary names.
+class Bar : public Geometry<3>
+{
+public:
+  Bar() { names = {"near end", "far end", "sides"}; }
+
+  void declare_parameters(Parameters &parameters) override
+  {
+    parameters.add_quantity("Length", length, "m", positive, "Length along x, from x = 0.");
+    parameters.add_quantity("Width", width, "m", positive, "Width along y and z.");
+    parameters.add_integer("Cells along", along, 1, 1000000, "Coarse cells along x.");
+    parameters.add_integer("Cells across", across, 1, 10000, "Coarse cells along y and z.");
+  }
+
+  void create(Triangulation<3> &triangulation) const override
+  {
+    GridGenerator::subdivided_hyper_rectangle(triangulation, {along, across, across}, Point<3>(),
+                                              Point<3>(length, width, width), true);
+    for (const auto &cell : triangulation.active_cell_iterators())
+      for (const auto &face : cell->face_iterators())
+        if (face->at_boundary() && face->boundary_id() > 2)
+          face->set_boundary_id(2);
+  }
+
+private:
+  double       length = 1., width = 0.1;
+  unsigned int along = 10, across = 1;
+};
+
+template <int dim>
+Registry<Geometry<dim>> make_geometries()
+{
+  Registry<Geometry<dim>> registry("mesh type");
+  registry.template add<SphericalShell<dim>>(
+    "spherical shell", "Octant, half or full shell around a spherical cavity, graded towards it.");
+  registry.template add<Ball<dim>>("ball", "Octant or full solid ball.");
+  registry.template add<Box<dim>>("box", "Axis-parallel box.");
+  registry.template add<Bar>("bar", "Prismatic bar along x.");
+  registry.template add<Cylinder>("cylinder", "Solid circular cylinder along x.");
+  registry.template add<ImportedMesh<dim>>("file", "Hexahedra from a Gmsh file, audited.");
+  return registry;
+}
+} // namespace
+
+template <int dim>
+const Registry<Geometry<dim>> &geometries()
+{
+  static const Registry<Geometry<dim>> registry = make_geometries<dim>();
+  return registry;
+}
+
+template <int dim>
+MeshChoice<dim>::MeshChoice(const Parameters &parameters)
+  : type(parameters.peek_choice("Mesh/Type", "spherical shell", geometries<dim>().names()))
+  , geometry(geometries<dim>().make(type))
+{}
+
+template <int dim>
+void MeshChoice<dim>::declare_parameters(Parameters &parameters)
+{
+  const auto section = parameters.section("Mesh");
+  parameters.add_choice("Type", type, geometries<dim>().names(), "Geometry of the body; its own entries follow.");
+  parameters.add_integer(
+    "Refinement", refinement, 0, 12,
+    "Global refinements of the coarse mesh: each halves the cells and costs 16 times the work in 3-D.");
+  parameters.add_flag(
+    "Refine geometry", refine_geometry,
+    "Put nodes of adaptively refined cells on the exact surfaces instead of keeping the shape of their parents. "
+    "Mass and fields are then transferred only approximately.");
+  geometry->declare_parameters(parameters);
+}
+
+template <int dim>
+void MeshChoice<dim>::finalize(const Parameters &parameters)
+{
+  geometry->finalize(parameters);
+}
+
+template class Geometry<3>;
+template struct MeshChoice<3>;
+template const Registry<Geometry<3>> &geometries<3>();
+} // namespace Arenite
