@@ -1,0 +1,226 @@
+#pragma once
+
+#include <arenite/mechanics/cell_batches.h>
+#include <arenite/mechanics/hexahedron.h>
+#include <arenite/mechanics/internal_force.h>
+#include <arenite/mechanics/spectral_element.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <cmath>
+
+namespace Arenite
+{
+/// Small-strain linear elasticity fused into the kernel of one kind of element.
+template <typename Element, int W>
+class ElasticForce : public InternalForce<Element::dim>
+{
+public:
+  static constexpr int dim = Element::dim, n_nodes = Element::n_nodes;
+  using Number = Lanes<W>;
+
+  ElasticForce(const ElementChoice &element, const LinearElastic &law, const dealii::types::material_id block)
+    : law(law)
+    , block(block)
+  {
+    moduli.lambda = law.lame_lambda();
+    moduli.mu     = law.shear_modulus;
+    viscous       = Element::has_hourglass_control && element.hourglass_control == "viscous";
+    (viscous ? moduli.hourglass_viscosity : moduli.hourglass_stiffness) =
+      element.hourglass_coefficient * (viscous ? law.density * law.p_wave_speed() : 1.);
+  }
+
+  void reinit(const Discretization<dim> &discretization) override
+  {
+    positions = &discretization.positions;
+    batches.reinit(discretization, block);
+  }
+
+  void add(VectorType &force, const State<dim> &state, const CellPart part) const override
+  {
+    const auto p = static_cast<unsigned int>(part);
+    if (viscous)
+      add_forces<true>(force, state, batches.part_begin[p], batches.part_begin[p + 1]);
+    else
+      add_forces<false>(force, state, batches.part_begin[p], batches.part_begin[p + 1]);
+  }
+
+  BlockEnergy energy(const State<dim> &state) const override
+  {
+    BlockEnergy total;
+    for (unsigned int b = 0; b < batches.size(); ++b)
+      {
+        Number x[dim][n_nodes], u[dim][n_nodes], v[dim][n_nodes];
+        load(b, positions->begin(), x);
+        load(b, state.displacement.begin(), u);
+        ElementEnergy<Number> energy;
+        if (viscous)
+          {
+            for (auto &component : v)
+              for (auto &value : component)
+                value = Number(0.);
+            element_force<true, true>(x, u, v, energy);
+          }
+        else
+          element_force<true, false>(x, u, v, energy);
+        for (int l = 0; l < batches.active[b]; ++l)
+          {
+            total.strain += lane(energy.strain, l);
+            total.hourglass += lane(energy.hourglass, l);
+          }
+      }
+    return total;
+  }
+
+  void add_mass(VectorType &mass) const override
+  {
+    for (unsigned int b = 0; b < batches.size(); ++b)
+      {
+        Number x[dim][n_nodes], volume[n_nodes];
+        load(b, positions->begin(), x);
+        Element::nodal_volume(x, volume);
+        for (int n = 0; n < n_nodes; ++n)
+          for (int l = 0; l < batches.active[b]; ++l)
+            mass.local_element(entries(b)[n * W + l] / dim) += law.density * lane(volume[n], l);
+      }
+  }
+
+  void inverse_size_squared(dealii::Vector<double> &per_cell) const override
+  {
+    for (unsigned int b = 0; b < batches.size(); ++b)
+      {
+        Number x[dim][n_nodes];
+        load(b, positions->begin(), x);
+        const Number size = Element::inverse_size_squared(x);
+        for (int l = 0; l < batches.active[b]; ++l)
+          per_cell[batches.cells[b * W + l]] = lane(size, l);
+      }
+  }
+
+  void largest_eigenvalue(dealii::Vector<double> &per_cell) const override
+  {
+    for (unsigned int b = 0; b < batches.size(); ++b)
+      {
+        Number x[dim][n_nodes];
+        load(b, positions->begin(), x);
+        const Number lambda = power_iteration(x);
+        for (int l = 0; l < batches.active[b]; ++l)
+          per_cell[batches.cells[b * W + l]] = lane(lambda, l);
+      }
+  }
+
+  const LinearElastic &material() const override { return law; }
+
+  std::string description() const override
+  {
+    return "linear elastic, small strain, 0 B/point, " + std::to_string(W) + (W == 1 ? " lane" : " lanes");
+  }
+
+private:
+  const unsigned int *entries(const unsigned int batch) const { return &batches.entries[batch * n_nodes * W]; }
+
+  void load(const unsigned int batch, const double *vector, Number (&values)[dim][n_nodes]) const
+  {
+    gather<dim, W, n_nodes>(vector, entries(batch), values);
+  }
+
+  template <bool with_energy, bool with_viscosity>
+  ARENITE_INLINE void element_force(const Number (&x)[dim][n_nodes], Number (&u)[dim][n_nodes],
+                                    Number (&v)[dim][n_nodes], ElementEnergy<Number> &energy) const
+  {
+    if constexpr (Element::has_hourglass_control)
+      Element::template internal_force<with_energy, with_viscosity>(x, u, v, moduli, energy);
+    else
+      {
+        (void)v;
+        Element::template internal_force<with_energy>(x, u, moduli, energy);
+      }
+  }
+
+  template <bool with_viscosity>
+  void add_forces(VectorType &force, const State<dim> &state, const unsigned int begin, const unsigned int end) const
+  {
+    const double *X = positions->begin(), *U = state.displacement.begin(), *V = state.half_velocity.begin();
+    double       *F = force.begin();
+    for (unsigned int b = begin; b < end; ++b)
+      {
+        Number                x[dim][n_nodes], u[dim][n_nodes], v[dim][n_nodes];
+        ElementEnergy<Number> unused;
+        gather<dim, W, n_nodes>(X, entries(b), x);
+        gather<dim, W, n_nodes>(U, entries(b), u);
+        if constexpr (with_viscosity)
+          gather<dim, W, n_nodes>(V, entries(b), v);
+        element_force<false, with_viscosity>(x, u, v, unused);
+        scatter_add<dim, W, n_nodes>(F, entries(b), u, batches.active[b]);
+      }
+  }
+
+  /// Largest eigenvalue of M^-1 K of the element itself. The start vector has a part in every mode and does not depend on
+  /// ranks; 60 iterations leave the Rayleigh quotient below the eigenvalue by 1e-3 or less (tests/mechanics/stable_step.cc).
+  Number power_iteration(const Number (&x)[dim][n_nodes]) const
+  {
+    Number volume[n_nodes], y[dim][n_nodes], v[dim][n_nodes], lambda = Number(0.);
+    Element::nodal_volume(x, volume);
+    for (int n = 0; n < n_nodes; ++n)
+      for (int c = 0; c < dim; ++c)
+        y[c][n] = Number(std::sin(1. + 2.3 * n * n + 1.7 * c * (n + 1)));
+    for (unsigned int iteration = 0; iteration < 60; ++iteration)
+      {
+        Number z[dim][n_nodes], yy = Number(0.), yz = Number(0.);
+        for (int c = 0; c < dim; ++c)
+          for (int n = 0; n < n_nodes; ++n)
+            {
+              z[c][n] = y[c][n];
+              v[c][n] = Number(0.);
+            }
+        ElementEnergy<Number> unused;
+        if (viscous)
+          element_force<false, true>(x, z, v, unused);
+        else
+          element_force<false, false>(x, z, v, unused);
+        for (int c = 0; c < dim; ++c)
+          for (int n = 0; n < n_nodes; ++n)
+            {
+              yz += y[c][n] * z[c][n];
+              yy += y[c][n] * y[c][n] * volume[n];
+              z[c][n] = z[c][n] / volume[n];
+            }
+        lambda             = -yz / yy * (1. / law.density);
+        const Number scale = Number(1. / law.density) / lambda;
+        for (int c = 0; c < dim; ++c)
+          for (int n = 0; n < n_nodes; ++n)
+            y[c][n] = z[c][n] * scale;
+      }
+    return lambda;
+  }
+
+  const LinearElastic              law;
+  const dealii::types::material_id block;
+  ElasticModuli                    moduli;
+  bool                             viscous   = false;
+  const VectorType                *positions = nullptr;
+  CellBatches<dim, W>              batches;
+};
+
+template <int dim, int W>
+std::unique_ptr<InternalForce<dim>> make_elastic_force(const ElementChoice &element, const LinearElastic &law,
+                                                       const dealii::types::material_id block)
+{
+  if (element.type == "spectral element")
+    switch (element.degree)
+      {
+      case 2:
+        return std::make_unique<ElasticForce<SpectralElement<dim, 2>, W>>(element, law, block);
+      case 3:
+        return std::make_unique<ElasticForce<SpectralElement<dim, 3>, W>>(element, law, block);
+      case 4:
+        return std::make_unique<ElasticForce<SpectralElement<dim, 4>, W>>(element, law, block);
+      }
+  else if (element.type == "hexahedron")
+    return std::make_unique<ElasticForce<FullHexahedron, W>>(element, law, block);
+  else if (element.type == "one-point hexahedron")
+    return std::make_unique<ElasticForce<OnePointHexahedron, W>>(element, law, block);
+  AssertThrow(false, dealii::ExcMessage("no kernel for element '" + element.type + "' of this degree"));
+  return nullptr;
+}
+} // namespace Arenite

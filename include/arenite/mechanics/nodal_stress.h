@@ -1,0 +1,38 @@
+#pragma once
+
+#include <arenite/materials/linear_elastic.h>
+#include <arenite/mechanics/discretization.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <array>
+#include <vector>
+
+namespace Arenite
+{
+/// One scalar nodal vector per independent component, in the order of dealii::SymmetricTensor (xx, yy, zz, xy, xz, yz).
+template <int dim>
+using NodalStress = std::array<VectorType, dealii::SymmetricTensor<2, dim>::n_independent_components>;
+
+/// Stress at the nodes [Pa], tension positive: the law applied to the gradient of each cell's own polynomial at its nodes, then
+/// the mean over the cells that touch the node, all with the same weight. Hanging nodes follow their masters. Exact for linear
+/// displacements on cells of any shape; ghosts and hanging nodes of the result are valid. Collective.
+///
+/// @param displacement  [m], ghosts and hanging nodes valid
+/// @param materials     by material id; a single one holds for all cells
+template <int dim>
+NodalStress<dim> nodal_stress(const Discretization<dim> &, const VectorType &displacement,
+                              const std::vector<LinearElastic> &materials);
+
+/// The law for one point: stress [Pa] of the displacement gradient H[i][j] = d u_i / d x_j.
+template <int dim>
+dealii::SymmetricTensor<2, dim> elastic_stress(const LinearElastic &, const dealii::Tensor<2, dim> &gradient);
+
+/// Mean pressure [Pa], compression positive.
+template <int dim>
+double pressure(const dealii::SymmetricTensor<2, dim> &stress);
+
+/// sqrt(3/2 s : s) [Pa] with the deviator s.
+template <int dim>
+double von_mises_stress(const dealii::SymmetricTensor<2, dim> &stress);
+} // namespace Arenite

@@ -1,0 +1,199 @@
+#include <arenite/mechanics/discretization.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_tools.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <algorithm>
+
+namespace Arenite
+{
+using namespace dealii;
+
+void HangingNodes::clear()
+{
+  nodes.clear();
+  master.clear();
+  weight.clear();
+  start.assign(1, 0);
+  n_local = 0;
+}
+
+void HangingNodes::add(const unsigned int node, const std::vector<std::pair<unsigned int, double>> &masters)
+{
+  nodes.push_back(node);
+  for (const auto &[m, w] : masters)
+    {
+      master.push_back(m);
+      weight.push_back(w);
+    }
+  start.push_back(static_cast<unsigned int>(master.size()));
+}
+
+bool HangingNodes::depends_on_ghosts(const unsigned int node) const
+{
+  // lines are added in ascending order within the local and the ghost-dependent part
+  return std::binary_search(nodes.begin() + n_local, nodes.end(), node);
+}
+
+template <int dim>
+Discretization<dim>::Discretization(Triangulation &triangulation, const unsigned int degree)
+  : communicator(triangulation.get_communicator())
+  , triangulation(triangulation)
+  , fe(QGaussLobatto<1>(degree + 1))
+  , dofs(triangulation)
+  , lexicographic(FETools::lexicographic_to_hierarchic_numbering<dim>(degree))
+{}
+
+namespace
+{
+/// The owned range of nodes blown up to `dim` entries per node.
+IndexSet with_components(const IndexSet &nodes, const unsigned int n_components)
+{
+  IndexSet result(nodes.size() * n_components);
+  for (auto interval = nodes.begin_intervals(); interval != nodes.end_intervals(); ++interval)
+    result.add_range(*interval->begin() * n_components, (interval->last() + 1) * n_components);
+  result.compress();
+  return result;
+}
+} // namespace
+
+template <int dim>
+void Discretization<dim>::distribute_nodes()
+{
+  dofs.distribute_dofs(fe);
+  IndexSet relevant;
+  DoFTools::extract_locally_relevant_dofs(dofs, relevant);
+  AffineConstraints<double> constraints(relevant);
+  DoFTools::make_hanging_node_constraints(dofs, constraints);
+  constraints.close();
+
+  const unsigned int                   n = nodes_per_cell();
+  std::vector<types::global_dof_index> indices(n), needed;
+  std::vector<types::global_dof_index> global_table;
+  cell_list.clear();
+  for (const auto &cell : dofs.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        cell_list.push_back(cell);
+        cell->get_dof_indices(indices);
+        for (unsigned int i = 0; i < n; ++i)
+          global_table.push_back(indices[lexicographic[i]]);
+      }
+
+  // Ghosts: the nodes of owned cells and the masters of those that hang.
+  std::vector<types::global_dof_index> used = global_table;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<types::global_dof_index> hanging_lines;
+  needed = used;
+  for (const auto i : used)
+    if (const auto *entries = constraints.get_constraint_entries(i))
+      {
+        hanging_lines.push_back(i);
+        for (const auto &entry : *entries)
+          needed.push_back(entry.first);
+      }
+  std::sort(needed.begin(), needed.end());
+  IndexSet ghosts(dofs.n_dofs());
+  ghosts.add_indices(needed.begin(), needed.end());
+  ghosts.subtract_set(dofs.locally_owned_dofs());
+
+  node_partitioner =
+    std::make_shared<const Utilities::MPI::Partitioner>(dofs.locally_owned_dofs(), ghosts, communicator);
+  vector_partitioner =
+    std::make_shared<const Utilities::MPI::Partitioner>(with_components(dofs.locally_owned_dofs(), dim),
+                                                        with_components(ghosts, dim), communicator);
+
+  const auto local = [&](const types::global_dof_index i) { return node_partitioner->global_to_local(i); };
+  node_table.resize(global_table.size());
+  std::transform(global_table.begin(), global_table.end(), node_table.begin(), local);
+
+  hanging.clear();
+  std::sort(hanging_lines.begin(), hanging_lines.end(),
+            [&](const auto a, const auto b) { return local(a) < local(b); });
+  std::vector<std::pair<unsigned int, double>> masters;
+  for (const bool with_ghosts : {false, true})
+    {
+      for (const auto i : hanging_lines)
+        {
+          masters.clear();
+          bool has_ghost = false;
+          for (const auto &entry : *constraints.get_constraint_entries(i))
+            {
+              masters.emplace_back(local(entry.first), entry.second);
+              has_ghost = has_ghost || masters.back().first >= n_owned_nodes();
+            }
+          if (has_ghost == with_ghosts)
+            hanging.add(local(i), masters);
+        }
+      if (!with_ghosts)
+        hanging.n_local = hanging.size();
+    }
+  positions = new_vector();
+}
+
+template <int dim>
+void Discretization<dim>::positions_from_manifolds()
+{
+  const MappingQ<dim> mapping(degree());
+  positions = 0.;
+  for (unsigned int cell = 0; cell < cell_list.size(); ++cell)
+    for (unsigned int i = 0; i < nodes_per_cell(); ++i)
+      {
+        const unsigned int node = cell_nodes(cell)[i];
+        if (node >= n_owned_nodes())
+          continue;
+        const auto x = mapping.transform_unit_to_real_cell(cell_list[cell], fe.unit_support_point(lexicographic[i]));
+        for (unsigned int c = 0; c < dim; ++c)
+          positions.local_element(dim * node + c) = x[c];
+      }
+  make_consistent(*this, positions);
+}
+
+template <int dim>
+void Discretization<dim>::transform(const std::function<Point<dim>(const Point<dim> &)> &map)
+{
+  for (unsigned int node = 0; node < n_owned_nodes(); ++node)
+    {
+      const Point<dim> x = map(position(node));
+      for (unsigned int c = 0; c < dim; ++c)
+        positions.local_element(dim * node + c) = x[c];
+    }
+  make_consistent(*this, positions);
+}
+
+template <int dim>
+Point<dim> Discretization<dim>::position(const unsigned int node) const
+{
+  Point<dim> x;
+  for (unsigned int c = 0; c < dim; ++c)
+    x[c] = positions.local_element(dim * node + c);
+  return x;
+}
+
+template <int dim>
+void Discretization<dim>::cell_positions(const unsigned int cell, std::vector<Point<dim>> &x) const
+{
+  x.resize(nodes_per_cell());
+  for (unsigned int i = 0; i < x.size(); ++i)
+    x[i] = position(cell_nodes(cell)[i]);
+}
+
+template <int dim>
+void make_consistent(const Discretization<dim> &discretization, VectorType &vector)
+{
+  vector.zero_out_ghost_values();
+  vector.update_ghost_values();
+  const bool scalar = vector.get_partitioner().get() == discretization.node_partitioner.get();
+  if (scalar)
+    discretization.hanging.template interpolate<1>(vector.begin());
+  else
+    discretization.hanging.template interpolate<dim>(vector.begin());
+}
+
+template class Discretization<3>;
+template void make_consistent(const Discretization<3> &, VectorType &);
+} // namespace Arenite

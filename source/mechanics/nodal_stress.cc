@@ -1,0 +1,119 @@
+#include <arenite/mechanics/nodal_stress.h>
+
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <cmath>
+
+namespace Arenite
+{
+using namespace dealii;
+
+namespace
+{
+/// [i][j] = l_j'(x_i) of the Lagrange polynomials on the Gauss-Lobatto points.
+FullMatrix<double> derivative_matrix(const unsigned int degree)
+{
+  const auto         points = QGaussLobatto<1>(degree + 1).get_points();
+  const auto         basis  = Polynomials::generate_complete_Lagrange_basis(points);
+  FullMatrix<double> matrix(degree + 1);
+  for (unsigned int i = 0; i <= degree; ++i)
+    for (unsigned int j = 0; j <= degree; ++j)
+      {
+        std::vector<double> value_and_derivative(2);
+        basis[j].value(points[i][0], value_and_derivative);
+        matrix(i, j) = value_and_derivative[1];
+      }
+  return matrix;
+}
+
+/// Derivatives of nodal vectors f along the reference directions at lexicographic node n: [i][d] = d f_i / d xi_d.
+template <int dim>
+Tensor<2, dim> reference_gradient(const FullMatrix<double> &derivative, const std::vector<Tensor<1, dim>> &f,
+                                  const unsigned int n)
+{
+  Tensor<2, dim>     gradient;
+  const unsigned int n_1d   = derivative.m();
+  unsigned int       stride = 1;
+  for (unsigned int d = 0; d < dim; ++d, stride *= n_1d)
+    {
+      const unsigned int c = n / stride % n_1d, line = n - c * stride;
+      for (unsigned int m = 0; m < n_1d; ++m)
+        for (unsigned int i = 0; i < dim; ++i)
+          gradient[i][d] += derivative(c, m) * f[line + m * stride][i];
+    }
+  return gradient;
+}
+} // namespace
+
+template <int dim>
+SymmetricTensor<2, dim> elastic_stress(const LinearElastic &material, const Tensor<2, dim> &gradient)
+{
+  const SymmetricTensor<2, dim> strain = symmetrize(gradient);
+  return material.lame_lambda() * trace(strain) * unit_symmetric_tensor<dim>() + 2. * material.shear_modulus * strain;
+}
+
+template <int dim>
+double pressure(const SymmetricTensor<2, dim> &stress)
+{
+  return -trace(stress) / dim;
+}
+
+template <int dim>
+double von_mises_stress(const SymmetricTensor<2, dim> &stress)
+{
+  return std::sqrt(1.5) * deviator(stress).norm();
+}
+
+template <int dim>
+NodalStress<dim> nodal_stress(const Discretization<dim> &discretization, const VectorType &displacement,
+                              const std::vector<LinearElastic> &materials)
+{
+  NodalStress<dim> sums;
+  for (VectorType &component : sums)
+    component = discretization.new_scalar();
+  VectorType count = discretization.new_scalar();
+
+  const FullMatrix<double>    derivative = derivative_matrix(discretization.degree());
+  const unsigned int          n_nodes    = discretization.nodes_per_cell();
+  std::vector<Tensor<1, dim>> x(n_nodes), u(n_nodes);
+  for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
+    {
+      const unsigned int  *nodes = discretization.cell_nodes(cell);
+      const LinearElastic &material =
+        materials.size() == 1 ? materials.front() : materials.at(discretization.cells()[cell]->material_id());
+      for (unsigned int n = 0; n < n_nodes; ++n)
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            x[n][i] = discretization.positions.local_element(dim * nodes[n] + i);
+            u[n][i] = displacement.local_element(dim * nodes[n] + i);
+          }
+      for (unsigned int n = 0; n < n_nodes; ++n)
+        {
+          const Tensor<2, dim>          jacobian = reference_gradient(derivative, x, n);
+          const SymmetricTensor<2, dim> stress =
+            elastic_stress(material, Tensor<2, dim>(reference_gradient(derivative, u, n) * invert(jacobian)));
+          for (unsigned int k = 0; k < sums.size(); ++k)
+            sums[k].local_element(nodes[n]) += stress.access_raw_entry(k);
+          count.local_element(nodes[n]) += 1.;
+        }
+    }
+
+  count.compress(VectorOperation::add);
+  for (VectorType &component : sums)
+    {
+      component.compress(VectorOperation::add);
+      for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+        component.local_element(node) /= count.local_element(node);
+      make_consistent(discretization, component);
+    }
+  return sums;
+}
+
+template SymmetricTensor<2, 3> elastic_stress(const LinearElastic &, const Tensor<2, 3> &);
+template double                pressure(const SymmetricTensor<2, 3> &);
+template double                von_mises_stress(const SymmetricTensor<2, 3> &);
+template NodalStress<3> nodal_stress(const Discretization<3> &, const VectorType &, const std::vector<LinearElastic> &);
+} // namespace Arenite
