@@ -1,0 +1,59 @@
+#pragma once
+
+#include <arenite/loads/load.h>
+#include <arenite/verification/exact_solution.h>
+
+namespace Arenite
+{
+/// `subsection Constraints`: symmetry planes, fixed boundaries, prescribed velocities. Acts on nodal forces before the update,
+/// so that the update itself knows nothing about them.
+template <int dim>
+class Constraints
+{
+public:
+  void declare_parameters(Parameters &);
+  void finalize(const Parameters &, const Geometry<dim> &);
+
+  /// Symmetry planes by boundary id, without a scene.
+  void set_symmetry(const std::vector<dealii::types::boundary_id> &ids) { symmetry = ids; }
+
+  /// Nodal lists for the present mesh. Dashpot blocks of constrained nodes lose their constrained directions.
+  void reinit(const Discretization<dim> &);
+
+  /// Replace the forces of constrained nodes so that the update over @p dt with mean step @p mean keeps them on their motion.
+  void apply(State<dim> &, double dt, double mean);
+
+  /// Sum of (reaction . v) [W] of prescribed motions, from the last apply().
+  double power(const VectorType &half_velocity) const;
+
+  /// Project a velocity or displacement onto what the planes admit.
+  void project(VectorType &) const;
+
+  /// D -> P D P at constrained nodes.
+  void project(DampingBlocks<dim> &) const;
+
+  /// Boundaries that follow an exact solution (verification scenes).
+  const ExactSolution<dim> *exact_solution = nullptr;
+
+private:
+  struct PrescribedBoundary
+  {
+    std::string                             name;
+    std::vector<dealii::types::boundary_id> ids;
+    dealii::Tensor<1, dim>                  direction;
+    HistoryChoice                           history;
+  };
+  struct PrescribedNode
+  {
+    unsigned int           node, boundary;
+    dealii::Tensor<1, dim> reaction;
+  };
+
+  std::vector<std::string>                         symmetry_names{"auto"}, fixed_names, prescribed_names, exact_names;
+  std::vector<dealii::types::boundary_id>          symmetry, fixed, exact;
+  std::vector<std::unique_ptr<PrescribedBoundary>> prescribed;
+  std::vector<NodeValue<dealii::SymmetricTensor<2, dim>>>    projectors; ///< ascending nodes
+  std::vector<PrescribedNode>                                prescribed_nodes;
+  std::vector<std::pair<PrescribedNode, dealii::Point<dim>>> exact_nodes;
+};
+} // namespace Arenite

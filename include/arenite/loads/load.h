@@ -1,0 +1,84 @@
+#pragma once
+
+#include <arenite/base/registry.h>
+#include <arenite/base/time_history.h>
+#include <arenite/loads/boundary_faces.h>
+#include <arenite/materials/linear_elastic.h>
+#include <arenite/mechanics/state.h>
+#include <arenite/mesh/geometry.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Arenite
+{
+template <int dim>
+using DampingBlocks = std::vector<NodeValue<dealii::SymmetricTensor<2, dim>>>;
+
+/// Lumped mass of a mesh, one entry per node [kg].
+struct NodalMass
+{
+  VectorType partial;   ///< from the cells of this process, hanging nodes with their own share
+  VectorType condensed; ///< what the update uses: hanging nodes gave to their masters, ghosts to their owners
+};
+
+/// Forces from outside, on owned nodes. A load knows its nodes after reinit() and touches nothing else in the step.
+template <int dim>
+class Load
+{
+public:
+  virtual ~Load() = default;
+
+  virtual void declare_parameters(Parameters &) = 0;
+  virtual void finalize(const Parameters &, const Geometry<dim> &) {}
+
+  /// Rebuild nodal lists after a change of the mesh.
+  virtual void reinit(const Discretization<dim> &, const NodalMass &mass, const LinearElastic &material) = 0;
+
+  /// force += f(t_n); also remembers f for record_work().
+  virtual void add(VectorType &force, const State<dim> &) = 0;
+
+  /// Dashpots [N s/m]: the update treats - D (v_{n-1/2} + v_{n+1/2})/2 implicitly, node by node.
+  virtual const DampingBlocks<dim> *damping() const { return nullptr; }
+
+  /// Advance own state over dt with the velocity v_{n+1/2}.
+  virtual void finish_step(const VectorType & /*half_velocity*/, double /*dt*/) {}
+
+  /// Sum over nodes of f_n . v [W], the force of the last add().
+  virtual double power(const VectorType &half_velocity) const = 0;
+
+  /// Own state that must survive a change of the mesh: one scalar per node (zero elsewhere).
+  virtual const VectorType *nodal_state() const { return nullptr; }
+  virtual void              set_nodal_state(const VectorType &) {}
+
+  /// Boundaries that this load pushes on; adaptive meshes start refined there.
+  virtual std::vector<dealii::types::boundary_id> loaded_boundaries() const { return {}; }
+
+  /// One line for the log.
+  virtual std::string description() const = 0;
+
+  std::string name; ///< of the subsection
+};
+
+template <int dim>
+const Registry<Load<dim>> &loads();
+
+/// The history of `subsection <load>`: reads `set History`, and declares the entries of the chosen kind.
+class HistoryChoice
+{
+public:
+  /// The name under "<path>/History".
+  void                                declare_parameters(Parameters &, const std::string &unit);
+  void                                finalize();
+  double                              value(double t) const { return history->value(t); }
+  const std::shared_ptr<TimeHistory> &get() const { return history; }
+  const std::string                  &name() const { return kind; }
+
+private:
+  std::string                  kind = "constant";
+  std::shared_ptr<TimeHistory> history;
+};
+} // namespace Arenite

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <arenite/loads/load.h>
+
+namespace Arenite
+{
+template <int dim>
+using NodalForces = std::vector<NodeValue<dealii::Tensor<1, dim>>>;
+
+/// Nodal vector -> list of its nonzero owned entries, after hanging nodes gave to their masters and ghosts to their owners.
+template <int dim>
+NodalForces<dim> assemble(const Discretization<dim> &, VectorType &);
+
+template <int dim>
+void add_forces(const NodalForces<dim> &list, const double factor, VectorType &force)
+{
+  for (const auto &[node, value] : list)
+    for (unsigned int c = 0; c < dim; ++c)
+      force.local_element(dim * node + c) += factor * value[c];
+}
+
+/// factor * sum of f . v
+template <int dim>
+double power_of(const NodalForces<dim> &list, const double factor, const VectorType &velocity)
+{
+  double sum = 0.;
+  for (const auto &[node, value] : list)
+    for (unsigned int c = 0; c < dim; ++c)
+      sum += value[c] * velocity.local_element(dim * node + c);
+  return factor * sum;
+}
+
+/// Pressure p(t) on named boundaries: f_i = -p(t) integral of N_i n dA, on the undeformed surface.
+template <int dim>
+class Pressure : public Load<dim>
+{
+public:
+  void        declare_parameters(Parameters &) override;
+  void        finalize(const Parameters &, const Geometry<dim> &) override;
+  void        reinit(const Discretization<dim> &, const NodalMass &mass, const LinearElastic &) override;
+  void        add(VectorType &force, const State<dim> &) override;
+  double      power(const VectorType &half_velocity) const override { return power_of(area, factor, half_velocity); }
+  std::string description() const override;
+  std::vector<dealii::types::boundary_id> loaded_boundaries() const override { return ids; }
+  const HistoryChoice                    &pressure_history() const { return history; }
+  const std::vector<std::string>         &boundaries() const { return boundary_names; }
+
+private:
+  std::vector<std::string>                boundary_names;
+  std::vector<dealii::types::boundary_id> ids;
+  HistoryChoice                           history;
+  std::string                             path;
+  NodalForces<dim>                        area;        ///< integral of N_i n dA [m^2]
+  double                                  factor = 0.; ///< -p(t_n)
+};
+
+/// Acceleration g of the whole body: f_i = m_i g.
+template <int dim>
+class Gravity : public Load<dim>
+{
+public:
+  void        declare_parameters(Parameters &) override;
+  void        finalize(const Parameters &, const Geometry<dim> &) override;
+  void        reinit(const Discretization<dim> &, const NodalMass &mass, const LinearElastic &) override;
+  void        add(VectorType &force, const State<dim> &) override;
+  double      power(const VectorType &half_velocity) const override { return power_of(weight, factor, half_velocity); }
+  std::string description() const override;
+
+private:
+  dealii::Tensor<1, dim> acceleration;
+  HistoryChoice          history;
+  NodalForces<dim>       weight;
+  double                 factor = 0.;
+};
+} // namespace Arenite

@@ -1,0 +1,181 @@
+#include <arenite/loads/absorbing.h>
+
+#include <cmath>
+
+namespace Arenite
+{
+using namespace dealii;
+
+template <int dim>
+void AbsorbingBoundary<dim>::declare_parameters(Parameters &parameters)
+{
+  path = parameters.current_path();
+  parameters.add_list("Boundary", boundary_names, "Names of the boundaries behind which the solid goes on.");
+  parameters.require("Boundary");
+  parameters.add_choice(
+    "Condition", condition, {"Lysmer", "spherical"},
+    "Lysmer dashpots absorb plane waves at normal incidence; 'spherical' is exact for spherical P waves "
+    "around 'Centre', so that the boundary may lie right behind the last receiver.");
+  parameters.add_vector("Centre", centre, "m", "Centre of the waves, for 'spherical'.");
+}
+
+template <int dim>
+void AbsorbingBoundary<dim>::finalize(const Parameters &parameters, const Geometry<dim> &geometry)
+{
+  ids = geometry.boundary_ids(parameters, path + "/Boundary", boundary_names);
+}
+
+template <int dim>
+void AbsorbingBoundary<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &,
+                                    const LinearElastic       &material)
+{
+  const double z_p = material.density * material.p_wave_speed(), z_s = material.density * material.s_wave_speed();
+
+  // integrals over the boundary, one symmetric block and one area per node; hanging nodes give theirs to the masters (row sums)
+  constexpr unsigned int  n_blocks = SymmetricTensor<2, dim>::n_independent_components;
+  std::vector<VectorType> block(n_blocks, discretization.new_scalar());
+  VectorType              area = discretization.new_scalar();
+  for_each_face_point(discretization, ids,
+                      [&](const unsigned int *nodes, const double *N, const Point<dim> &x, const Tensor<1, dim> &dA) {
+                        const double         dS = dA.norm();
+                        const Tensor<1, dim> outward =
+                          spherical() ? (x - Point<dim>(centre)) / (x - Point<dim>(centre)).norm() : dA / dS;
+                        SymmetricTensor<2, dim> D;
+                        for (unsigned int i = 0; i < dim; ++i)
+                          for (unsigned int j = i; j < dim; ++j)
+                            D[i][j] = dS * ((z_p - z_s) * outward[i] * outward[j] + (i == j ? z_s : 0.));
+                        for (unsigned int i = 0; i < discretization.nodes_per_cell(); ++i)
+                          {
+                            area.local_element(nodes[i]) += N[i] * dS;
+                            for (unsigned int k = 0; k < n_blocks; ++k)
+                              block[k].local_element(nodes[i]) += N[i] * D.access_raw_entry(k);
+                          }
+                      });
+  for (VectorType *vector : {&area})
+    {
+      discretization.hanging.template condense<1>(vector->begin());
+      vector->compress(VectorOperation::add);
+    }
+  for (VectorType &vector : block)
+    {
+      discretization.hanging.template condense<1>(vector.begin());
+      vector.compress(VectorOperation::add);
+    }
+
+  dashpots.clear();
+  springs.clear();
+  if (memory.size() != discretization.n_nodes())
+    memory = discretization.new_scalar();
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    if (area.local_element(node) > 0.)
+      {
+        SymmetricTensor<2, dim> D;
+        for (unsigned int k = 0; k < n_blocks; ++k)
+          D.access_raw_entry(k) = block[k].local_element(node);
+        dashpots.push_back({node, D});
+        if (spherical())
+          {
+            const Tensor<1, dim> from_centre = discretization.position(node) - Point<dim>(centre);
+            const double         b = from_centre.norm(), A = area.local_element(node), cp = material.p_wave_speed();
+            springs.push_back(
+              {node, from_centre / b, A * 4. * material.shear_modulus / b, A * material.density * cp * cp / b, cp / b});
+          }
+      }
+}
+
+template <int dim>
+void AbsorbingBoundary<dim>::add(VectorType &force, const State<dim> &state)
+{
+  for (auto &s : springs)
+    {
+      double u = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        u += s.normal[c] * state.displacement.local_element(dim * s.node + c);
+      s.force = s.push * memory.local_element(s.node) - s.spring * u;
+      for (unsigned int c = 0; c < dim; ++c)
+        force.local_element(dim * s.node + c) += s.force * s.normal[c];
+    }
+}
+
+template <int dim>
+double AbsorbingBoundary<dim>::power(const VectorType &half_velocity) const
+{
+  double sum = 0.;
+  for (const auto &s : springs)
+    for (unsigned int c = 0; c < dim; ++c)
+      sum += s.force * s.normal[c] * half_velocity.local_element(dim * s.node + c);
+  return sum;
+}
+
+template <int dim>
+void AbsorbingBoundary<dim>::finish_step(const VectorType &half_velocity, const double dt)
+{
+  for (const auto &s : springs)
+    {
+      double v = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        v += s.normal[c] * half_velocity.local_element(dim * s.node + c);
+      double      &w = memory.local_element(s.node);
+      const double r = 0.5 * dt * s.rate;
+      w              = (w * (1. - r) + dt * v) / (1. + r); // trapezoidal rule
+    }
+}
+
+template <int dim>
+void AbsorbingBoundary<dim>::set_nodal_state(const VectorType &values)
+{
+  memory = values;
+}
+
+template <int dim>
+std::string AbsorbingBoundary<dim>::description() const
+{
+  return condition + " boundary on " + join(boundary_names);
+}
+
+template <int dim>
+void Sponge<dim>::declare_parameters(Parameters &parameters)
+{
+  path = parameters.current_path();
+  parameters.add_choice("Shape", shape, {"sphere", "plane"},
+                        "Depth is measured from a sphere around 'Origin', or along 'Direction' from 'Origin'.");
+  parameters.add_vector("Origin", origin, "m", "Centre of the sphere or point of reference.");
+  parameters.add_vector("Direction", direction, "-", "Unit vector into the layer, for 'plane'.");
+  parameters.add_quantity("Start", start, "m", any_value, "Distance from the origin where damping begins.");
+  parameters.add_quantity("End", end, "m", any_value, "Distance from the origin of the outer boundary.");
+  parameters.add_quantity(
+    "Target reflection", reflection, "-", {0., 1., true, true},
+    "Amplitude that returns from the end. Smaller values damp more and reflect more at the start.");
+}
+
+template <int dim>
+void Sponge<dim>::finalize(const Parameters &parameters, const Geometry<dim> &)
+{
+  if (end <= start)
+    parameters.refuse(path + "/End", "must be larger than 'Start'");
+  if (shape == "plane" && direction.norm() == 0.)
+    parameters.refuse(path + "/Direction", "a plane sponge needs a direction");
+  if (direction.norm() > 0.)
+    direction /= direction.norm();
+}
+
+template <int dim>
+void Sponge<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &mass,
+                         const LinearElastic &material)
+{
+  const double strength = 3. * material.p_wave_speed() * std::log(1. / reflection) / (2. * (end - start));
+  dashpots.clear();
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    {
+      const Tensor<1, dim> x        = discretization.position(node) - Point<dim>(origin);
+      const double         distance = shape == "plane" ? x * direction : x.norm();
+      const double         s        = std::min(1., (distance - start) / (end - start));
+      if (s > 0. && mass.condensed.local_element(node) > 0.)
+        dashpots.push_back(
+          {node, strength * s * s * mass.condensed.local_element(node) * unit_symmetric_tensor<dim>()});
+    }
+}
+
+template class AbsorbingBoundary<3>;
+template class Sponge<3>;
+} // namespace Arenite

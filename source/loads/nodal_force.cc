@@ -1,0 +1,109 @@
+#include <arenite/loads/nodal_force.h>
+
+#include <sstream>
+
+namespace Arenite
+{
+using namespace dealii;
+
+template <int dim>
+NodalForces<dim> assemble(const Discretization<dim> &discretization, VectorType &vector)
+{
+  discretization.hanging.template condense<dim>(vector.begin());
+  vector.compress(VectorOperation::add);
+  NodalForces<dim> list;
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    {
+      Tensor<1, dim> value;
+      for (unsigned int c = 0; c < dim; ++c)
+        value[c] = vector.local_element(dim * node + c);
+      if (value.norm_square() > 0.)
+        list.push_back({node, value});
+    }
+  return list;
+}
+
+template <int dim>
+void Pressure<dim>::declare_parameters(Parameters &parameters)
+{
+  path = parameters.current_path();
+  parameters.add_list("Boundary", boundary_names, "Names of the boundaries that carry the pressure.");
+  parameters.require("Boundary");
+  history.declare_parameters(parameters, "Pa");
+}
+
+template <int dim>
+void Pressure<dim>::finalize(const Parameters &parameters, const Geometry<dim> &geometry)
+{
+  ids = geometry.boundary_ids(parameters, path + "/Boundary", boundary_names);
+  history.finalize();
+}
+
+template <int dim>
+void Pressure<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &, const LinearElastic &)
+{
+  VectorType         sum = discretization.new_vector();
+  const unsigned int n   = discretization.nodes_per_cell();
+  for_each_face_point(discretization, ids,
+                      [&](const unsigned int *nodes, const double *N, const Point<dim> &, const Tensor<1, dim> &dA) {
+                        for (unsigned int i = 0; i < n; ++i)
+                          for (unsigned int c = 0; c < dim; ++c)
+                            sum.local_element(dim * nodes[i] + c) += N[i] * dA[c];
+                      });
+  area = assemble(discretization, sum);
+}
+
+template <int dim>
+void Pressure<dim>::add(VectorType &force, const State<dim> &state)
+{
+  factor = -history.value(state.time);
+  add_forces(area, factor, force);
+}
+
+template <int dim>
+std::string Pressure<dim>::description() const
+{
+  return "pressure '" + history.name() + "' on " + join(boundary_names);
+}
+
+template <int dim>
+void Gravity<dim>::declare_parameters(Parameters &parameters)
+{
+  parameters.add_vector("Acceleration", acceleration, "m/s^2", "Acceleration of gravity, for example 0, 0, -9.81.");
+  history.declare_parameters(parameters, "-");
+}
+
+template <int dim>
+void Gravity<dim>::finalize(const Parameters &, const Geometry<dim> &)
+{
+  history.finalize();
+}
+
+template <int dim>
+void Gravity<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &mass, const LinearElastic &)
+{
+  weight.clear();
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    if (mass.condensed.local_element(node) > 0.)
+      weight.push_back({node, mass.condensed.local_element(node) * acceleration});
+}
+
+template <int dim>
+void Gravity<dim>::add(VectorType &force, const State<dim> &state)
+{
+  factor = history.value(state.time);
+  add_forces(weight, factor, force);
+}
+
+template <int dim>
+std::string Gravity<dim>::description() const
+{
+  std::ostringstream text;
+  text << "gravity " << acceleration << " m/s^2";
+  return text.str();
+}
+
+template class Pressure<3>;
+template class Gravity<3>;
+template NodalForces<3> assemble(const Discretization<3> &, VectorType &);
+} // namespace Arenite
