@@ -1,0 +1,64 @@
+#pragma once
+
+#include <arenite/mechanics/internal_force.h>
+#include <arenite/time/central_difference.h>
+#include <arenite/time/energy_balance.h>
+#include <arenite/time/node_damping.h>
+
+namespace Arenite
+{
+/// The semi-discrete equations M a = f_int(u) + f_loads(u, v, t) of one mesh, and one step through them:
+///
+///   dynamics.compute_force(state);      // f_n: internal forces and loads
+///   dynamics.close_force(state, dt);    // dashpots and constraints, first half of the work at t_n
+///   dynamics.report(state, dt);         // optional: energies at t_n. Here observers look at u_n, v_n and f_n
+///   dynamics.advance(state, dt);        // u_{n+1}, v_{n+1/2}, second half of the work
+template <int dim>
+class Dynamics
+{
+public:
+  Dynamics(Discretization<dim> &discretization, std::vector<std::unique_ptr<InternalForce<dim>>> blocks,
+           std::vector<std::unique_ptr<Load<dim>>> loads, Constraints<dim> &constraints);
+
+  /// Rebuild everything that depends on the mesh; sizes the state, keeps its time.
+  void reinit(State<dim> &);
+
+  /// state.force = f_n. Ghost exchange runs beside the cells that do not need it, unless @p overlap is off.
+  void compute_force(State<dim> &, bool overlap = true);
+
+  /// Apply dashpots and constraints for the coming step and book the work of f_n over the half step behind. After a change of the
+  /// mesh that half was already booked with the old forces: @p book_first_half = false.
+  void close_force(State<dim> &, double dt, bool book_first_half = true);
+
+  /// Energies at t_n, between close_force() and advance(). Collective.
+  EnergyReport report(const State<dim> &, double dt);
+
+  /// Kinetic and stored energy at t_n, summed over processes, without an entry in the balance. Collective.
+  double total_energy(const State<dim> &, double dt) const;
+
+  /// u_{n+1}, v_{n+1/2}; consumes the force.
+  void advance(State<dim> &, double dt);
+
+  /// Sum of the blocks' energies on this process.
+  BlockEnergy stored_energy(const State<dim> &) const;
+
+  /// v_n = v_{n-1/2} + dt_{n-1}/2 M^-1 f_n with ghosts and hanging nodes, between close_force() and advance().
+  VectorType velocity(const State<dim> &) const;
+
+  /// Total mass [kg] and momentum [kg m/s] of the modelled sector.
+  double                 total_mass() const;
+  dealii::Tensor<1, dim> momentum(const State<dim> &) const;
+
+  Discretization<dim>                             &discretization;
+  std::vector<std::unique_ptr<InternalForce<dim>>> blocks;
+  std::vector<std::unique_ptr<Load<dim>>>          loads;
+  Constraints<dim>                                &constraints;
+  EnergyBalance                                    balance;
+  VectorType                                       mass; ///< per node [kg], zero at hanging nodes
+
+private:
+  void book_work(const State<dim> &, double half_step);
+
+  NodeDamping<dim> damping;
+};
+} // namespace Arenite

@@ -1,0 +1,176 @@
+#include <arenite/time/dynamics.h>
+
+#include <numeric>
+
+namespace Arenite
+{
+using namespace dealii;
+
+template <int dim>
+Dynamics<dim>::Dynamics(Discretization<dim> &discretization, std::vector<std::unique_ptr<InternalForce<dim>>> blocks,
+                        std::vector<std::unique_ptr<Load<dim>>> loads, Constraints<dim> &constraints)
+  : discretization(discretization)
+  , blocks(std::move(blocks))
+  , loads(std::move(loads))
+  , constraints(constraints)
+{
+  std::vector<std::string> names;
+  for (const auto &load : this->loads)
+    names.push_back(load->name);
+  names.push_back("prescribed motion");
+  balance.set_names(names);
+}
+
+template <int dim>
+void Dynamics<dim>::reinit(State<dim> &state)
+{
+  state.reinit(discretization);
+  NodalMass nodal{discretization.new_scalar(), VectorType()};
+  for (auto &block : blocks)
+    {
+      block->reinit(discretization);
+      block->add_mass(nodal.partial);
+    }
+  nodal.condensed  = nodal.partial;
+  VectorType &mass = nodal.condensed;
+  discretization.hanging.template condense<1>(mass.begin());
+  mass.compress(VectorOperation::add);
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        const double m                                   = mass.local_element(node);
+        state.inverse_mass.local_element(dim * node + c) = m > 0. ? 1. / m : 0.;
+      }
+  for (auto &load : loads)
+    load->reinit(discretization, nodal, blocks.front()->material());
+  constraints.reinit(discretization);
+  damping.reinit(loads, constraints);
+  this->mass = std::move(nodal.condensed);
+}
+
+template <int dim>
+void Dynamics<dim>::compute_force(State<dim> &state, const bool overlap)
+{
+  const HangingNodes &hanging = discretization.hanging;
+  VectorType         &u = state.displacement, &f = state.force;
+  const auto          add = [&](const CellPart part) {
+    for (const auto &block : blocks)
+      block->add(f, state, part);
+  };
+
+  hanging.interpolate<dim>(u.begin(), 0, hanging.n_local);
+  u.update_ghost_values_start();
+  if (overlap)
+    add(CellPart::inner_first);
+  u.update_ghost_values_finish();
+  hanging.interpolate<dim>(u.begin(), hanging.n_local, hanging.size());
+  add(CellPart::boundary);
+  if (!overlap)
+    {
+      add(CellPart::inner_first);
+      add(CellPart::inner_second);
+    }
+  hanging.condense<dim>(f.begin());
+  f.compress_start(0, VectorOperation::add);
+  if (overlap)
+    add(CellPart::inner_second);
+  f.compress_finish(VectorOperation::add);
+  hanging.condense<dim>(f.begin()); // what inner_second left at hanging nodes; the others are zero by now
+  for (const auto &load : loads)
+    load->add(f, state);
+}
+
+template <int dim>
+void Dynamics<dim>::book_work(const State<dim> &state, const double half_step)
+{
+  const VectorType &v = state.half_velocity;
+  for (unsigned int l = 0; l < loads.size(); ++l)
+    balance.add_work(l, half_step * (loads[l]->power(v) + damping.power(l, v)));
+  balance.add_work(loads.size(), half_step * constraints.power(v));
+}
+
+// The leapfrog kinetic energy changes by (dt_mean f_n . v) on both sides of t_n, the forces do work over dt_{n-1} and dt_n: the
+// difference, zero for equal steps, is booked as a step change.
+template <int dim>
+void Dynamics<dim>::close_force(State<dim> &state, const double dt, const bool book_first_half)
+{
+  const double mean = 0.5 * (state.dt_last + dt);
+  damping.apply(state, mean);
+  constraints.apply(state, dt, mean);
+  if (!book_first_half)
+    return;
+  book_work(state, 0.5 * state.dt_last);
+  if (mean != state.dt_last)
+    balance.add_step_change(0.5 * (mean - state.dt_last) * power(state));
+}
+
+template <int dim>
+EnergyReport Dynamics<dim>::report(const State<dim> &state, const double dt)
+{
+  const BlockEnergy stored = stored_energy(state);
+  return balance.report(state.time, kinetic_energy(state, 0.5 * (state.dt_last + dt)), stored.strain, stored.hourglass,
+                        discretization.communicator);
+}
+
+template <int dim>
+double Dynamics<dim>::total_energy(const State<dim> &state, const double dt) const
+{
+  const BlockEnergy stored = stored_energy(state);
+  return Utilities::MPI::sum(kinetic_energy(state, 0.5 * (state.dt_last + dt)) + stored.strain + stored.hourglass,
+                             discretization.communicator);
+}
+
+template <int dim>
+void Dynamics<dim>::advance(State<dim> &state, const double dt)
+{
+  const double mean        = 0.5 * (state.dt_last + dt);
+  const double power_after = central_difference(state, dt, mean);
+  book_work(state, 0.5 * dt);
+  balance.add_step_change(0.5 * (mean - dt) * power_after);
+  for (const auto &load : loads)
+    load->finish_step(state.half_velocity, dt);
+}
+
+template <int dim>
+BlockEnergy Dynamics<dim>::stored_energy(const State<dim> &state) const
+{
+  BlockEnergy total;
+  for (const auto &block : blocks)
+    {
+      const BlockEnergy energy = block->energy(state);
+      total.strain += energy.strain;
+      total.hourglass += energy.hourglass;
+    }
+  return total;
+}
+
+template <int dim>
+double Dynamics<dim>::total_mass() const
+{
+  return Utilities::MPI::sum(std::accumulate(mass.begin(), mass.begin() + mass.locally_owned_size(), 0.),
+                             discretization.communicator);
+}
+
+template <int dim>
+Tensor<1, dim> Dynamics<dim>::momentum(const State<dim> &state) const
+{
+  Tensor<1, dim> sum;
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    for (unsigned int c = 0; c < dim; ++c)
+      sum[c] += mass.local_element(node) * state.half_velocity.local_element(dim * node + c);
+  return Utilities::MPI::sum(sum, discretization.communicator);
+}
+
+template <int dim>
+VectorType Dynamics<dim>::velocity(const State<dim> &state) const
+{
+  VectorType result = discretization.new_vector();
+  for (unsigned int i = 0; i < result.locally_owned_size(); ++i)
+    result.local_element(i) = state.half_velocity.local_element(i) +
+                              0.5 * state.dt_last * state.inverse_mass.local_element(i) * state.force.local_element(i);
+  make_consistent(discretization, result);
+  return result;
+}
+
+template class Dynamics<3>;
+} // namespace Arenite
