@@ -1,0 +1,64 @@
+#pragma once
+
+#include <arenite/adaptivity/refinement_indicator.h>
+#include <arenite/mesh/geometry.h>
+#include <arenite/time/stable_time_step.h>
+
+#include <deal.II/distributed/tria.h>
+
+#include <memory>
+
+namespace Arenite
+{
+/// Decides when and where the mesh changes, and carries the fields over.
+///
+/// Cells whose indicator exceeds a part of its global maximum are the front. They and `Buffer layers` of cells around them are
+/// refined to the finest level; cells outside with a small indicator are coarsened, never below the initial mesh. The mesh is
+/// adapted again before a P wave has crossed the buffer, so that the front never meets a coarse cell.
+///
+/// Displacement, velocity, positions and boundary scalars are interpolated. Positions are a field like the others: refined cells
+/// keep the polynomial shape of their parents, and mass and fields are transferred exactly under refinement.
+template <int dim>
+class MeshAdaptor
+{
+public:
+  using Triangulation = dealii::parallel::distributed::Triangulation<dim>;
+
+  void declare_parameters(Parameters &);
+  void finalize(const Parameters &, const MeshChoice<dim> &, const Geometry<dim> &);
+
+  bool active() const { return levels > 0; }
+
+  /// Refine around the boundaries that @p loads push on, before the first step: fills the discretization and its positions.
+  void initial_refinement(Triangulation &, Discretization<dim> &,
+                          const std::vector<dealii::types::boundary_id> &loaded);
+
+  bool due(const double time) const { return active() && time >= next_time; }
+
+  /// Flags for the present state. Returns whether the mesh will change on any process. Collective.
+  bool mark(Triangulation &, const Dynamics<dim> &, const State<dim> &);
+
+  /// Change the mesh as flagged; transfers state, positions, boundary scalars and step ratios; rebuilds everything.
+  void execute(Triangulation &, Dynamics<dim> &, State<dim> &, StableTimeStep<dim> &) const;
+
+  /// Set the time of the next adaptation from the buffer's thickness.
+  void schedule(const Dynamics<dim> &, double time);
+
+  unsigned int max_passes() const { return levels; }
+
+  /// Last indicator, for pictures.
+  dealii::Vector<float> indicator;
+
+private:
+  void grow(Triangulation &, std::vector<bool> &marked) const;
+  void flag(Triangulation &, const std::vector<bool> &front, const std::vector<bool> &quiet) const;
+
+  std::string                               type = "wave front";
+  std::unique_ptr<RefinementIndicator<dim>> kind;
+  std::vector<std::string>                  boundary_names{"auto"};
+  std::vector<dealii::types::boundary_id>   initial_boundaries;
+  bool                                      automatic_boundaries = true, refine_geometry = false;
+  unsigned int                              levels = 0, base_level = 0, layers = 2, cell_limit = 50000000;
+  double                                    refine_above = 0.2, coarsen_below = 0.05, next_time = 0.;
+};
+} // namespace Arenite

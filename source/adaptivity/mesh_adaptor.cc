@@ -1,0 +1,237 @@
+#include <arenite/adaptivity/field_transfer.h>
+#include <arenite/adaptivity/mesh_adaptor.h>
+#include <arenite/base/errors.h>
+
+#include <deal.II/distributed/cell_data_transfer.templates.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Arenite
+{
+using namespace dealii;
+
+template <int dim>
+void MeshAdaptor<dim>::declare_parameters(Parameters &parameters)
+{
+  const auto section = parameters.section("Adaptivity");
+  parameters.add_integer(
+    "Levels", levels, 0, 8,
+    "Levels that may be refined on top of the initial mesh; 0 keeps the mesh. Each level halves the step.");
+  parameters.add_choice("Indicator", type, refinement_indicators<dim>().names(),
+                        "What marks a cell as part of the front.");
+  parameters.add_quantity(
+    "Refine above", refine_above, "-", {0., 1., true, false},
+    "Part of the largest indicator above which a cell belongs to the front. Larger values refine less.");
+  parameters.add_quantity(
+    "Coarsen below", coarsen_below, "-", {0., 1., false, false},
+    "Part of the largest indicator below which cells are coarsened. Larger values coarsen sooner.");
+  parameters.add_integer("Buffer layers", layers, 1, 100,
+                         "Layers of fine cells around the front. More layers cost cells and save adaptations.");
+  parameters.add_list("Initially refined boundaries", boundary_names,
+                      "Boundaries with fine cells at the start; 'auto': those under pressure.");
+  parameters.add_integer("Largest number of cells", cell_limit, 1, 1000000000,
+                         "The run stops with a message before it exceeds this.");
+}
+
+template <int dim>
+void MeshAdaptor<dim>::finalize(const Parameters &parameters, const MeshChoice<dim> &mesh,
+                                const Geometry<dim> &geometry)
+{
+  kind                 = refinement_indicators<dim>().make(type);
+  base_level           = mesh.refinement;
+  refine_geometry      = mesh.refine_geometry;
+  automatic_boundaries = boundary_names == std::vector<std::string>{"auto"};
+  if (!automatic_boundaries)
+    initial_boundaries = geometry.boundary_ids(parameters, "Adaptivity/Initially refined boundaries", boundary_names);
+  if (coarsen_below >= refine_above)
+    parameters.refuse("Adaptivity/Coarsen below",
+                      "must be smaller than 'Refine above', or cells would flip at every adaptation");
+}
+
+/// Add all cells that share a vertex with a marked one, on owned cells.
+template <int dim>
+void MeshAdaptor<dim>::grow(Triangulation &triangulation, std::vector<bool> &marked) const
+{
+  for (unsigned int layer = 0; layer < layers; ++layer)
+    {
+      using Cell = typename dealii::Triangulation<dim>::active_cell_iterator;
+      std::vector<bool> vertex(triangulation.n_vertices(), false);
+      const auto        mark_vertices = [&](const Cell &cell) {
+        for (const unsigned int v : cell->vertex_indices())
+          vertex[cell->vertex_index(v)] = true;
+      };
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && marked[cell->active_cell_index()])
+          mark_vertices(cell);
+      GridTools::exchange_cell_data_to_ghosts<unsigned int, dealii::Triangulation<dim>>(
+        triangulation, [&](const Cell &cell) { return marked[cell->active_cell_index()] ? 1u : 0u; },
+        [&](const Cell &cell, const unsigned int value) {
+          if (value)
+            mark_vertices(cell);
+        });
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int v : cell->vertex_indices())
+            if (vertex[cell->vertex_index(v)])
+              marked[cell->active_cell_index()] = true;
+    }
+}
+
+template <int dim>
+void MeshAdaptor<dim>::flag(Triangulation &triangulation, const std::vector<bool> &front,
+                            const std::vector<bool> &quiet) const
+{
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        const unsigned int level = cell->level();
+        cell->clear_refine_flag();
+        cell->clear_coarsen_flag();
+        if (front[cell->active_cell_index()] && level < base_level + levels)
+          cell->set_refine_flag();
+        else if (quiet[cell->active_cell_index()] && !front[cell->active_cell_index()] && level > base_level)
+          cell->set_coarsen_flag();
+      }
+  triangulation.prepare_coarsening_and_refinement();
+}
+
+template <int dim>
+void MeshAdaptor<dim>::initial_refinement(Triangulation &triangulation, Discretization<dim> &discretization,
+                                          const std::vector<types::boundary_id> &loaded)
+{
+  discretization.distribute_nodes();
+  discretization.positions_from_manifolds();
+  if (!active())
+    return;
+  if (automatic_boundaries)
+    initial_boundaries = loaded;
+  for (unsigned int pass = 0; pass < levels; ++pass)
+    {
+      std::vector<bool> front(triangulation.n_active_cells(), false), quiet(front);
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary() && std::find(initial_boundaries.begin(), initial_boundaries.end(),
+                                                 face->boundary_id()) != initial_boundaries.end())
+              front[cell->active_cell_index()] = true;
+      grow(triangulation, front);
+      flag(triangulation, front, quiet);
+      FieldTransfer<dim> transfer(discretization);
+      transfer.add(discretization.positions);
+      transfer.prepare();
+      triangulation.execute_coarsening_and_refinement();
+      discretization.distribute_nodes();
+      transfer.interpolate();
+      transfer.next(discretization.positions);
+      make_consistent(discretization, discretization.positions);
+      if (refine_geometry)
+        discretization.positions_from_manifolds();
+    }
+}
+
+template <int dim>
+bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &dynamics, const State<dim> &state)
+{
+  const Discretization<dim> &discretization = dynamics.discretization;
+  const auto                &cells          = discretization.cells();
+  indicator.reinit(cells.size());
+  kind->evaluate(discretization, state, dynamics.velocity(state), dynamics.blocks.front()->material(), indicator);
+  const float largest = Utilities::MPI::max(cells.empty() ? 0.f : indicator.linfty_norm(), discretization.communicator);
+
+  std::vector<bool> front(triangulation.n_active_cells(), false), quiet(front);
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    {
+      front[cells[cell]->active_cell_index()] = indicator[cell] > refine_above * largest;
+      quiet[cells[cell]->active_cell_index()] = indicator[cell] <= coarsen_below * largest;
+    }
+  grow(triangulation, front);
+  flag(triangulation, front, quiet);
+  unsigned int changes = 0, refined = 0;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        refined += cell->refine_flag_set();
+        changes += cell->refine_flag_set() || cell->coarsen_flag_set();
+      }
+  refined = Utilities::MPI::sum(refined, discretization.communicator);
+  if (triangulation.n_global_active_cells() + (GeometryInfo<dim>::max_children_per_cell - 1.) * refined > cell_limit)
+    throw InputError("t = " + Utilities::to_string(state.time) + " s: adaptation needs more than " +
+                     std::to_string(cell_limit) +
+                     " cells. Raise 'Adaptivity / Largest number of cells', raise 'Refine above' or use fewer levels.");
+  return Utilities::MPI::max(changes, discretization.communicator) > 0;
+}
+
+template <int dim>
+void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dynamics, State<dim> &state,
+                               StableTimeStep<dim> &time_step) const
+{
+  Discretization<dim> &discretization = dynamics.discretization;
+
+  FieldTransfer<dim> transfer(discretization);
+  VectorType         velocity = state.half_velocity;
+  make_consistent(discretization, velocity);
+  transfer.add(discretization.positions);
+  transfer.add(state.displacement);
+  transfer.add(velocity);
+  for (const auto &load : dynamics.loads)
+    if (const VectorType *scalar = load->nodal_state())
+      {
+        VectorType consistent = *scalar;
+        make_consistent(discretization, consistent);
+        transfer.add(consistent);
+      }
+  transfer.prepare();
+  parallel::distributed::CellDataTransfer<dim, dim, Vector<double>> ratios(
+    triangulation, false, &AdaptationStrategies::Refinement::preserve<dim, dim, double>,
+    [](const typename dealii::Triangulation<dim>::cell_iterator &, const std::vector<double> &children) {
+      return *std::max_element(children.begin(), children.end());
+    });
+  ratios.prepare_for_coarsening_and_refinement(time_step.ratio);
+  triangulation.execute_coarsening_and_refinement();
+
+  discretization.distribute_nodes();
+  transfer.interpolate();
+  transfer.next(discretization.positions);
+  make_consistent(discretization, discretization.positions);
+  if (refine_geometry)
+    discretization.positions_from_manifolds();
+
+  dynamics.reinit(state);
+  transfer.next(state.displacement);
+  transfer.next(state.half_velocity);
+  dynamics.constraints.project(state.displacement);
+  dynamics.constraints.project(state.half_velocity);
+  for (const auto &load : dynamics.loads)
+    if (load->nodal_state() != nullptr)
+      {
+        VectorType scalar = discretization.new_scalar();
+        transfer.next(scalar);
+        load->set_nodal_state(scalar);
+      }
+  for (const unsigned int node : discretization.hanging.list()) // not part of the update
+    if (node < discretization.n_owned_nodes())
+      for (unsigned int c = 0; c < dim; ++c)
+        state.half_velocity.local_element(dim * node + c) = 0.;
+
+  time_step.ratio.reinit(triangulation.n_active_cells());
+  ratios.unpack(time_step.ratio);
+  time_step.update(dynamics);
+}
+
+template <int dim>
+void MeshAdaptor<dim>::schedule(const Dynamics<dim> &dynamics, const double time)
+{
+  if (!active())
+    return;
+  // shortest edge of the finest cells; one layer stays as reserve
+  double edge = std::numeric_limits<double>::max();
+  for (const auto &cell : dynamics.discretization.cells())
+    edge = std::min(edge, cell->minimum_vertex_distance());
+  edge      = Utilities::MPI::min(edge, dynamics.discretization.communicator);
+  next_time = time + std::max(layers - 1., 0.5) * edge / dynamics.blocks.front()->material().p_wave_speed();
+}
+
+template class MeshAdaptor<3>;
+} // namespace Arenite
