@@ -1,0 +1,321 @@
+#!/usr/bin/python3
+"""A picture of one state, without ParaView and without a screen.
+
+    render.py output/cavity/solution.pvd cavity.png --field velocity --component magnitude --warp 50 --edges
+
+FILE is a .pvtu, a .vtu, or the solution.pvd of a run (its last picture, or --time T). Surfaces and edges are those of the
+high-order cells themselves, not of their corners. Needs python3-vtk9 and, where no display is, xvfb.
+"""
+import argparse, os, shutil, sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "pressure": "Pa", "von_mises_stress": "Pa"}
+HEAT = ["f2f2f0", "fee8a0", "fec44f", "fe9929", "ec7014", "cc4c02", "8c2d04", "4a1502"]  # light: edges stay visible
+COOL_WARM = ["3b4cc0", "6788ee", "9abbff", "c9d7f0", "edd1c2", "f7a889", "e26952", "b40426"]
+
+
+def stop(message):
+    print(f"render: {message}", file=sys.stderr)
+    sys.exit(2)
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("file", type=Path, help=".pvtu, .vtu or .pvd")
+    parser.add_argument("picture", type=Path, help="PNG to write")
+    parser.add_argument("--field", default="velocity", help="name of a field (default: %(default)s)")
+    parser.add_argument("--component", default="magnitude",
+                        help="magnitude, x, y, z, xx, xy, ... or radial, seen from the origin (default: %(default)s)")
+    parser.add_argument("--warp", type=float, default=0., metavar="FACTOR", help="show the displacement, this many times enlarged")
+    parser.add_argument("--edges", action="store_true", help="draw the edges of the cells")
+    parser.add_argument("--range", type=float, nargs=2, metavar=("MIN", "MAX"), help="ends of the colour scale")
+    parser.add_argument("--view", type=float, nargs=3, metavar=("X", "Y", "Z"), help="direction from the body to the eye")
+    parser.add_argument("--size", type=int, nargs=2, default=(1200, 900), metavar=("WIDTH", "HEIGHT"), help="pixels")
+    parser.add_argument("--time", type=float, help="with a .pvd: the picture nearest to this time [s]")
+    parser.add_argument("--label", help="text of the colour scale (default: field, component and unit)")
+    return parser.parse_args()
+
+
+options = arguments()
+try:
+    import numpy as np
+    import vtk
+    from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+except ImportError as error:
+    stop(f"needs the Python module '{error.name}' (Debian: apt-get install python3-vtk9 python3-numpy, run with /usr/bin/python3)")
+
+if not os.environ.get("DISPLAY"):
+    if not shutil.which("xvfb-run"):
+        stop("there is no display (Debian: apt-get install xvfb)")
+    os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable, *sys.argv])
+
+
+# --- reading ------------------------------------------------------------------------------------------------------------
+def chosen_file():
+    file = options.file
+    if file.suffix == ".pvd" and file.is_file():
+        sets = ElementTree.parse(file).getroot().findall(".//DataSet")
+        if not sets:
+            stop(f"{file} lists no picture")
+        at = (lambda s: float(s.get("timestep")))
+        best = max(sets, key=at) if options.time is None else min(sets, key=lambda s: abs(at(s) - options.time))
+        file = file.parent / best.get("file")
+    if not file.is_file():
+        stop(f"{file} is not there")
+    return file
+
+
+def read(file):
+    reader = {".pvtu": vtk.vtkXMLPUnstructuredGridReader, ".vtu": vtk.vtkXMLUnstructuredGridReader}.get(file.suffix)
+    if reader is None:
+        stop(f"{file} is not a .pvtu, .vtu or .pvd")
+    reader = reader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    if reader.GetOutput().GetNumberOfCells() == 0:
+        stop(f"{file} has no cells")
+    return reader.GetOutput()
+
+
+def cells_by_order(grid):
+    """Yields (order, ids): point ids of all hexahedra of one order, ids[cell, i, j, k] along the reference directions."""
+    connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    sizes = np.diff(offsets)
+    for size in np.unique(sizes):
+        order = round(size ** (1 / 3)) - 1
+        if (order + 1) ** 3 != size:
+            stop("only hexahedra can be shown")
+        ids = connectivity[offsets[:-1][sizes == size][:, None] + np.arange(size)]
+        n = range(order + 1)
+        number = vtk.vtkLagrangeHexahedron.PointIndexFromIJK
+        local = np.array([[[number(i, j, k, (order,) * 3) for k in n] for j in n] for i in n])
+        yield order, ids[:, local]
+
+
+def field(grid):
+    """The chosen field at the points, one row of components per point, and a function that reduces such rows to a number."""
+    name, component = options.field, options.component
+    array = grid.GetPointData().GetArray(name)
+    if array is None:
+        names = [grid.GetPointData().GetArrayName(i) for i in range(grid.GetPointData().GetNumberOfArrays())]
+        stop(f"there is no field '{name}'. Known: {', '.join(names)}.")
+    data = vtk_to_numpy(array).astype(float)
+    if not np.isfinite(data).all():
+        stop(f"'{name}' has values that are not numbers")
+    axes = {axis: i for i, axis in enumerate("xyz")}
+
+    def radial(rows, x):
+        normal = x / np.maximum(np.linalg.norm(x, axis=1, keepdims=True), 1e-300)
+        if rows.shape[1] == 3:
+            return np.einsum("ni,ni->n", rows, normal)
+        return np.einsum("nij,ni,nj->n", rows.reshape(-1, 3, 3), normal, normal)
+
+    if data.ndim == 1:
+        return data[:, None], lambda rows, x: rows[:, 0]
+    if component == "magnitude":
+        return data, lambda rows, x: np.linalg.norm(rows, axis=1)
+    if component == "radial":
+        return data, radial
+    if data.shape[1] == 3 and component in axes:
+        return data, lambda rows, x: rows[:, axes[component]]
+    if data.shape[1] == 9 and len(component) == 2 and all(c in axes for c in component):
+        return data, lambda rows, x: rows[:, 3 * axes[component[0]] + axes[component[1]]]
+    stop(f"'{component}' is not a component of '{name}'")
+
+
+# --- surfaces -------------------------------------------------------------------------------------------------------------
+def lagrange(order, t):
+    """Values and derivatives at t of the polynomials on order + 1 points of equal distance: [point, node]."""
+    nodes = np.linspace(0., 1., order + 1)
+    basis = [np.poly1d(np.delete(nodes, j), r=True) for j in range(order + 1)]
+    basis = [p / p(x) for p, x in zip(basis, nodes)]
+    return np.array([p(t) for p in basis]).T, np.array([p.deriv()(t) for p in basis]).T
+
+
+def outer_faces(ids, x):
+    """Faces [face, a, b] that only one cell has, first normal direction outwards or inwards alike."""
+    faces = np.concatenate([ids[:, 0], ids[:, -1], ids[:, :, 0], ids[:, :, -1], ids[:, :, :, 0], ids[:, :, :, -1]])
+    corners = faces[:, [0, 0, -1, -1], [0, -1, 0, -1]]
+    centre = x[corners].mean(axis=1)
+    key = np.round(centre / (np.ptp(x, axis=0).max() * 1e-5)).astype(np.int64)
+    _, index, count = np.unique(key, axis=0, return_inverse=True, return_counts=True)
+    return faces[count[np.ravel(index)] == 1]
+
+
+def surface(grid):
+    """Fine quadrilaterals on the outer faces, the edges of these faces, and whether no node has a negative value."""
+    x = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    moved = x
+    if options.warp != 0.:
+        moved = x + options.warp * vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+    data, reduce_to_number = field(grid)
+    points, normals, colours, quads, lines, n = [], [], [], [], [], 0
+    for order, ids in cells_by_order(grid):
+        faces = outer_faces(ids, x)
+        fine = int(np.clip(np.sqrt(4e5 / max(len(faces), 1)), order, 12))
+        value, slope = lagrange(order, np.linspace(0., 1., fine + 1))
+        p = moved[faces]
+        points.append(np.einsum("ai,bj,fijc->fabc", value, value, p).reshape(-1, 3))
+        normal = np.cross(np.einsum("ai,bj,fijc->fabc", slope, value, p), np.einsum("ai,bj,fijc->fabc", value, slope, p))
+        normals.append((normal / np.maximum(np.linalg.norm(normal, axis=-1, keepdims=True), 1e-300)).reshape(-1, 3))
+        # first the polynomial, then its magnitude: the other way round shows negative magnitudes
+        rows = np.einsum("ai,bj,fijc->fabc", value, value, data[faces]).reshape(-1, data.shape[1])
+        colours.append(reduce_to_number(rows, np.einsum("ai,bj,fijc->fabc", value, value, x[faces]).reshape(-1, 3)))
+        number = n + np.arange(len(faces) * (fine + 1) ** 2).reshape(len(faces), fine + 1, fine + 1)
+        n += number.size
+        quads.append(np.stack([number[:, :-1, :-1], number[:, 1:, :-1], number[:, 1:, 1:], number[:, :-1, 1:]], -1).reshape(-1, 4))
+        for side in (number[:, 0], number[:, -1], number[:, :, 0], number[:, :, -1]):
+            lines.append(np.stack([side[:, :-1], side[:, 1:]], -1).reshape(-1, 2))
+
+    def poly_data(cells):
+        cells = np.concatenate(cells)
+        array = vtk.vtkCellArray()
+        array.SetData(numpy_to_vtkIdTypeArray(np.arange(len(cells) + 1, dtype=np.int64) * cells.shape[1], deep=True),
+                      numpy_to_vtkIdTypeArray(cells.ravel().astype(np.int64), deep=True))
+        data, vtk_points = vtk.vtkPolyData(), vtk.vtkPoints()
+        vtk_points.SetData(numpy_to_vtk(np.concatenate(points), deep=True))
+        data.SetPoints(vtk_points)
+        return data, array
+
+    body, array = poly_data(quads)
+    body.SetPolys(array)
+    body.GetPointData().SetScalars(numpy_to_vtk(np.concatenate(colours), deep=True))
+    body.GetPointData().SetNormals(numpy_to_vtk(np.concatenate(normals), deep=True))
+    edges, array = poly_data(lines)
+    edges.SetLines(array)
+    return body, edges, reduce_to_number(data, x).min() >= 0.
+
+
+# --- picture --------------------------------------------------------------------------------------------------------------
+def colour_scale(low, high, colours):
+    table = vtk.vtkColorTransferFunction()
+    for position, colour in zip(np.linspace(low, high, len(colours)), colours):
+        table.AddRGBPoint(position, *(int(colour[i:i + 2], 16) / 255 for i in (0, 2, 4)))
+    return table
+
+
+def main():
+    grid = read(chosen_file())
+    if not options.picture.resolve().parent.is_dir():
+        stop(f"there is no directory for {options.picture}")
+    body, edges, never_negative = surface(grid)
+    if options.range:
+        low, high = options.range
+    else:
+        shown = vtk_to_numpy(body.GetPointData().GetScalars())
+        low, high = shown.min(), shown.max()
+        if never_negative or 0. < low < 0.02 * high:
+            low = 0.
+        if low < 0. < high:  # signed fields: grey is zero
+            high = max(-low, high)
+            low = -high
+    if not low < high:
+        low, high = low - 0.5 * (abs(low) or 1.), high + 0.5 * (abs(high) or 1.)
+    table = colour_scale(low, high, COOL_WARM if low < 0. < high else HEAT)
+
+    # Look at the planes of symmetry of an octant from outside: they show what happens within the body.
+    box = np.array(body.GetBounds()).reshape(3, 2)
+    size = (box[:, 1] - box[:, 0]).max()
+    at_planes = np.abs(box[:, 0]) < 0.05 * size
+    view = np.array(options.view or np.where(at_planes, -1., 1.) * ((1., 1.35, 0.8) if at_planes.all() else (0.8, -1.35, 0.7)))
+    view /= np.linalg.norm(view)
+
+    renderer = vtk.vtkRenderer()
+    renderer.SetBackground(1., 1., 1.)
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputData(body)
+    mapper.SetLookupTable(table)
+    mapper.SetScalarRange(low, high)
+    mapper.InterpolateScalarsBeforeMappingOn()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetAmbient(0.4)
+    actor.GetProperty().SetDiffuse(0.65)
+    renderer.AddActor(actor)
+    if options.edges:
+        line_mapper = vtk.vtkPolyDataMapper()
+        line_mapper.SetInputData(edges)
+        line_actor = vtk.vtkActor()
+        line_actor.SetMapper(line_mapper)
+        line_actor.SetPosition(*(2e-3 * size * view))  # before the faces
+        line_actor.GetProperty().SetColor(0.12, 0.12, 0.12)
+        line_actor.GetProperty().SetLineWidth(max(1., options.size[1] / 700))
+        line_actor.GetProperty().LightingOff()
+        renderer.AddActor(line_actor)
+
+    unit = UNITS.get(options.field)
+    many = grid.GetPointData().GetArray(options.field).GetNumberOfComponents() > 1
+    title = options.label or " ".join([options.field.replace("_", " ")] + [options.component] * many) + (f" [{unit}]" if unit else "")
+    bar = vtk.vtkScalarBarActor()
+    bar.SetLookupTable(table)
+    bar.SetNumberOfLabels(5)
+    bar.SetLabelFormat("%.3g")
+    bar.SetOrientationToHorizontal()
+    bar.SetMaximumNumberOfColors(256)
+    bar.SetBarRatio(0.4)
+    bar.SetTextPositionToPrecedeScalarBar()
+    bar.SetPosition(0.2, 0.055)
+    bar.SetWidth(0.6)
+    bar.SetHeight(0.07)
+    bar.UnconstrainedFontSizeOn()
+    caption = vtk.vtkTextActor()  # the scale's own title overlaps its numbers
+    caption.SetInput(title)
+    caption.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+    caption.SetPosition(0.5, 0.015)
+    caption.GetTextProperty().SetJustificationToCentered()
+    for text, height in ((caption.GetTextProperty(), options.size[1] // 34), (bar.GetLabelTextProperty(), options.size[1] // 38)):
+        text.SetFontSize(max(8, height))
+        text.SetFontFamilyToArial()
+        text.SetColor(0., 0., 0.)
+        text.BoldOff()
+        text.ItalicOff()
+        text.ShadowOff()
+    renderer.AddActor2D(bar)
+    renderer.AddActor2D(caption)
+
+    up = np.array((0., 0., 1.) if abs(view[2]) < 0.98 else (0., 1., 0.))
+    right = np.cross(up, view)
+    right /= np.linalg.norm(right)
+    up = np.cross(view, right)
+    # parallel projection that fills the window above the colour scale
+    points = vtk_to_numpy(body.GetPoints().GetData())
+    horizontal, vertical = points @ right, points @ up
+    half = max(np.ptp(vertical) / 0.80, np.ptp(horizontal) * options.size[1] / options.size[0] / 0.94) / 2
+    target = right * (horizontal.min() + horizontal.max()) / 2 + up * ((vertical.min() + vertical.max()) / 2 - 0.15 * half)
+    target = target + view * (points @ view).mean()
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetParallelScale(half)
+    camera.SetFocalPoint(*target)
+    camera.SetPosition(*(target + 10. * size * view))
+    camera.SetViewUp(*up)
+    renderer.AutomaticLightCreationOff()
+    for position, strength in (((-0.3, 0.4, 1.), 0.75), ((0.5, -0.6, 0.6), 0.4)):
+        light = vtk.vtkLight()
+        light.SetLightTypeToCameraLight()
+        light.SetPosition(*position)
+        light.SetIntensity(strength)
+        renderer.AddLight(light)
+    renderer.ResetCameraClippingRange()
+
+    window = vtk.vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(8)
+    window.SetSize(*options.size)
+    window.AddRenderer(renderer)
+    window.Render()
+    image = vtk.vtkWindowToImageFilter()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    writer = vtk.vtkPNGWriter()
+    writer.SetFileName(str(options.picture))
+    writer.SetInputConnection(image.GetOutputPort())
+    writer.Write()
+    if writer.GetErrorCode() or not options.picture.is_file():
+        stop(f"{options.picture} cannot be written")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <arenite/io/receiver_file.h>
+#include <arenite/io/receiver_history.h>
+#include <arenite/io/receiver_points.h>
+#include <arenite/mechanics/state.h>
+
+namespace Arenite
+{
+/// One set of receivers: displacement, velocity and stress at fixed material points over the time of a run.
+///
+/// Values are means over all cells that touch a point, so they do not depend on the partition; displacements are continuous
+/// anyway. Each process adds up what its cells contribute; the sum over processes is only formed when the buffer is full, and so
+/// is everything that follows from it: velocities, exact solutions, text. The buffer is allocated once.
+template <int dim>
+class Receivers
+{
+public:
+  explicit Receivers(const std::string &name);
+
+  /// Entries of the current section.
+  void declare_parameters(Parameters &);
+  void finalize(const Parameters &);
+
+  /// Locate the points, at the start and after every change of the mesh. Differences of displacements do not cross the change:
+  /// the next record() starts anew from the half-step velocity of the state. Rows in the buffer stay. Collective.
+  void reinit(const Discretization<dim> &, MaterialOfBlock);
+
+  /// Create the files in @p directory; after the first reinit(). @p exact may be null. Collective. Lines and planes share the
+  /// store, which the first of them creates.
+  void open(const std::string &directory, double start_time, double end_time, const ExactSolution<dim> *exact,
+            std::shared_ptr<ReceiverStore> &store);
+
+  /// At every t_n after the forces were computed (displacement with valid ghosts, half_velocity = v_{n-1/2}), also at the end
+  /// time; once more at the same t_n after a change of the mesh if the forces are computed again. Collective when it flushes.
+  void record(const State<dim> &);
+
+  /// Complete the last row, write everything that is left and close the file; also before the program ends with an alarm.
+  /// Collective.
+  void finish();
+
+  /// "<set>.<quantity>.E_t", on all processes after finish(); empty without exact solution.
+  const std::map<std::string, double> &errors() const { return error_map; }
+
+  const std::vector<dealii::Point<dim>> &positions() const { return location.positions; }
+
+private:
+  enum class Kind : unsigned char
+  {
+    half_velocity, ///< v_{n-1/2}: a chain of differences begins
+    auxiliary,     ///< u_n, to complete the velocity of a row
+    row
+  };
+  struct Header
+  {
+    Kind         kind;
+    unsigned int step;
+    double       time, dt;
+  };
+
+  bool due(const State<dim> &);
+  void push(Kind, const VectorType &, const State<dim> &);
+  void flush();
+  void process_buffer();
+  void write_errors();
+
+  const std::string        name;
+  std::string              path, directory;
+  ReceiverPoints<dim>      points;
+  std::vector<std::string> quantity_names{"displacement", "velocity", "stress"};
+  ReceiverQuantities       quantities;
+  double                   interval = 0., end_time = 0.;
+
+  const Discretization<dim>       *discretization = nullptr;
+  std::unique_ptr<CellFields<dim>> fields;
+  PointLocation<dim>               location;
+  std::vector<LinearElastic>       materials; ///< per contact
+  VectorType                       velocity;  ///< consistent copy of v_{n-1/2}
+
+  // buffer of partial sums: [header][point][u, stress]
+  std::vector<Header> headers;
+  std::vector<double> buffer;
+  unsigned int        n_values = 0, capacity = 0;
+
+  unsigned int next_output = 0; ///< the next row is due at next_output * interval
+  unsigned int last_step   = dealii::numbers::invalid_unsigned_int;
+  bool         chained     = false; ///< the last record() put u of the step before into the buffer
+  bool         row_is_open = false; ///< the last row still needs u of the next step
+
+  // process 0
+  VelocityHistory<dim>               history;
+  ReceiverErrors<dim>                error_integrals;
+  bool                               with_errors = false;
+  std::unique_ptr<ReceiverFile<dim>> file;
+  std::map<std::string, double>      error_map;
+};
+
+/// All sets of a scene: the list `Receivers` at the top level and a section `Receivers / <name>` for each.
+template <int dim>
+class ReceiverSets
+{
+public:
+  void declare_parameters(Parameters &);
+  void finalize(const Parameters &);
+  void reinit(const Discretization<dim> &, const MaterialOfBlock &);
+  void open(const std::string &directory, double start_time, double end_time, const ExactSolution<dim> *exact);
+  void record(const State<dim> &);
+  void finish();
+
+  std::map<std::string, double> errors() const;
+
+private:
+  std::vector<std::string>                     names;
+  std::shared_ptr<ReceiverStore>               store; // before the sets, which close their groups first
+  std::vector<std::unique_ptr<Receivers<dim>>> sets;
+};
+} // namespace Arenite

@@ -1,0 +1,87 @@
+#include <arenite/io/receiver_history.h>
+
+#include <cmath>
+#include <limits>
+
+namespace Arenite
+{
+using namespace dealii;
+
+template <int dim>
+void ReceiverErrors<dim>::reinit(const ExactSolution<dim> &solution, const std::vector<Point<dim>> &points_,
+                                 const ReceiverQuantities &wanted)
+{
+  exact   = &solution;
+  points  = points_;
+  started = false;
+  quantities.clear();
+  const std::vector<Square> zero(points.size());
+  for (const auto &[name, is_wanted] :
+       {std::make_pair("displacement", wanted.displacement), std::make_pair("velocity", wanted.velocity),
+        std::make_pair("stress", wanted.stress)})
+    if (is_wanted)
+      quantities.push_back({name, zero, zero});
+}
+
+template <int dim>
+void ReceiverErrors<dim>::add(const ReceiverRow<dim> &row)
+{
+  const double half_step = started ? 0.5 * (row.time - last_time) : 0.;
+  for (Quantity &quantity : quantities)
+    for (unsigned int point = 0; point < points.size(); ++point)
+      {
+        const auto compare = [](const auto &computed, const auto &q) {
+          return Square{(computed - q) * (computed - q), q * q};
+        };
+        const Square now = quantity.name == "stress"
+                             ? compare(row.stress[point], exact->stress(points[point], row.time))
+                           : quantity.name == "velocity"
+                             ? compare(row.velocity[point], exact->velocity(points[point], row.time))
+                             : compare(row.displacement[point], exact->displacement(points[point], row.time));
+        quantity.integral[point].error += half_step * (quantity.last[point].error + now.error);
+        quantity.integral[point].exact += half_step * (quantity.last[point].exact + now.exact);
+        quantity.last[point] = now;
+      }
+  last_time = row.time;
+  started   = true;
+}
+
+namespace
+{
+/// Zero exact values have no relative error: infinite, or zero if the computed values are zero too.
+double relative(const double error, const double exact)
+{
+  if (exact > 0.)
+    return std::sqrt(error / exact);
+  return error > 0. ? std::numeric_limits<double>::infinity() : 0.;
+}
+} // namespace
+
+template <int dim>
+std::map<std::string, double> ReceiverErrors<dim>::of_point(const unsigned int point) const
+{
+  std::map<std::string, double> result;
+  for (const Quantity &quantity : quantities)
+    result[quantity.name + ".E_t"] = relative(quantity.integral[point].error, quantity.integral[point].exact);
+  return result;
+}
+
+template <int dim>
+std::map<std::string, double> ReceiverErrors<dim>::of_set() const
+{
+  std::map<std::string, double> result;
+  for (const Quantity &quantity : quantities)
+    {
+      Square sum;
+      for (const Square &square : quantity.integral)
+        {
+          sum.error += square.error;
+          sum.exact += square.exact;
+        }
+      result[quantity.name + ".E_t"] = relative(sum.error, sum.exact);
+    }
+  return result;
+}
+
+template class ReceiverErrors<3>;
+} // namespace Arenite

@@ -1,0 +1,332 @@
+#include <arenite/base/names.h>
+#include <arenite/base/values.h>
+#include <arenite/io/receivers.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Arenite
+{
+using namespace dealii;
+
+namespace
+{
+constexpr unsigned int most_rows  = 1024; // in the buffer
+constexpr std::size_t  most_bytes = std::size_t(1) << 24;
+
+// Steps that meet a multiple of the interval up to round-off count as there.
+constexpr double time_tolerance = 1e-9;
+} // namespace
+
+template <int dim>
+Receivers<dim>::Receivers(const std::string &name)
+  : name(name)
+{}
+
+template <int dim>
+void Receivers<dim>::declare_parameters(Parameters &parameters)
+{
+  path = parameters.current_path();
+  points.declare_parameters(parameters);
+  parameters.add_list("Quantities", quantity_names,
+                      "What is written: displacement [m], velocity [m/s], stress [Pa], tension positive.");
+  parameters.add_quantity("Interval", interval, "s", points.in_table() ? non_negative : positive,
+                          "Time between two rows; a longer one gives smaller files and misses what happens between. "
+                          "Zero writes every step, for Type = points only.");
+  if (!points.in_table())
+    parameters.require("Interval");
+}
+
+template <int dim>
+void Receivers<dim>::finalize(const Parameters &parameters)
+{
+  points.finalize(parameters);
+  const std::vector<std::string> known{"displacement", "velocity", "stress"};
+  for (const std::string &quantity : quantity_names)
+    if (std::find(known.begin(), known.end(), quantity) == known.end())
+      parameters.refuse(path + "/Quantities", "'" + quantity + "' cannot be recorded." + suggestion(quantity, known));
+  if (quantity_names.empty())
+    parameters.refuse(path + "/Quantities", "Nothing would be recorded. Known: " + join(known) + ".");
+  const auto wanted = [&](const std::string &quantity) {
+    return std::find(quantity_names.begin(), quantity_names.end(), quantity) != quantity_names.end();
+  };
+  quantities = {wanted("displacement"), wanted("velocity"), wanted("stress")};
+  n_values   = dim + (quantities.stress ? 6 : 0);
+}
+
+template <int dim>
+void Receivers<dim>::reinit(const Discretization<dim> &new_discretization, MaterialOfBlock material)
+{
+  discretization = &new_discretization;
+  fields         = std::make_unique<CellFields<dim>>(new_discretization);
+  location.reinit(*fields, points.positions, points.names, "[Receivers / " + name + "]");
+  materials.clear();
+  if (quantities.stress)
+    for (const auto &contact : location.contacts)
+      materials.push_back(material(new_discretization.cells()[contact.cell]->material_id()));
+  velocity.reinit(0);
+  chained = false;
+
+  const std::size_t row_size = points.names.size() * n_values;
+  capacity                   = std::clamp<std::size_t>(most_bytes / (row_size * sizeof(double)), 4, most_rows);
+  headers.reserve(capacity);
+  buffer.reserve(capacity * row_size);
+}
+
+template <int dim>
+void Receivers<dim>::open(const std::string &directory_, const double start_time, const double end_time_,
+                          const ExactSolution<dim> *exact, std::shared_ptr<ReceiverStore> &store)
+{
+  const MPI_Comm communicator = discretization->communicator;
+  directory                   = directory_;
+  end_time                    = end_time_;
+  next_output                 = 0;
+  with_errors                 = exact != nullptr;
+  if (exact)
+    error_integrals.reinit(*exact, points.positions, quantities);
+
+  const std::string stem = directory + "/receivers-" + name;
+  if (points.in_table())
+    {
+      file             = make_receiver_table<dim>(stem + ".csv", points.names, quantities, communicator);
+      const char *axis = "x,y,z";
+      std::string text = "name," + std::string(axis, 2 * dim - 1) + "\n";
+      for (unsigned int i = 0; i < points.names.size(); ++i)
+        {
+          text += points.names[i];
+          for (unsigned int d = 0; d < dim; ++d)
+            text += "," + to_text(location.positions[i][d]);
+          text += "\n";
+        }
+      write_text_file(stem + "-points.csv", text, communicator);
+    }
+  else
+    {
+      if (!store)
+        store = std::make_shared<ReceiverStore>(directory + "/receivers.h5", communicator);
+      // rows at the first step and at every multiple of the interval that follows
+      const double n_rows =
+        std::floor(end_time / interval + time_tolerance) - std::floor(start_time / interval + time_tolerance) + 1.;
+      AssertThrow(n_rows < 1e9, ExcMessage("The interval of the receivers " + name + " is too short."));
+      file = make_receiver_group<dim>(store, name, location.positions, quantities, std::size_t(n_rows));
+    }
+}
+
+template <int dim>
+bool Receivers<dim>::due(const State<dim> &state)
+{
+  if (state.step == last_step) // again on a new mesh
+    return false;
+  if (interval == 0.)
+    return true;
+  if (state.time < (next_output - time_tolerance) * interval ||
+      next_output * interval > end_time + time_tolerance * interval) // the last step may pass the end time
+    return false;
+  next_output = static_cast<unsigned int>(std::floor(state.time / interval + time_tolerance)) + 1;
+  return true;
+}
+
+// Between two outputs of an interval nothing is evaluated. A row that does not continue a chain brings v_{n-1/2} along, the step
+// after it completes the row. The last steps of a run are chained so that the last row has an acceleration.
+template <int dim>
+void Receivers<dim>::record(const State<dim> &state)
+{
+  const bool is_due = due(state), is_near_end = state.time + 2.5 * state.dt_last >= end_time;
+  const bool same_step = state.step == last_step, consecutive = state.step == last_step + 1;
+  if (!is_due && !row_is_open && !is_near_end)
+    {
+      chained = false;
+      return;
+    }
+  if (!chained || !(consecutive || same_step))
+    {
+      if (velocity.size() == 0)
+        velocity = discretization->new_vector();
+      velocity.zero_out_ghost_values();
+      velocity.copy_locally_owned_data_from(state.half_velocity);
+      make_consistent(*discretization, velocity);
+      push(Kind::half_velocity, velocity, state);
+      if (interval == 0.) // not needed again on this mesh
+        velocity.reinit(0);
+    }
+  push(is_due ? Kind::row : Kind::auxiliary, state.displacement, state);
+  row_is_open = is_due || (same_step && row_is_open);
+  chained     = true;
+  last_step   = state.step;
+}
+
+template <int dim>
+void Receivers<dim>::push(const Kind kind, const VectorType &field, const State<dim> &state)
+{
+  if (headers.size() == capacity)
+    flush();
+  headers.push_back({kind, state.step, state.time, state.dt_last});
+  const std::size_t start = buffer.size();
+  buffer.resize(start + points.names.size() * n_values, 0.);
+  for (unsigned int i = 0; i < location.contacts.size(); ++i)
+    {
+      const auto          &contact = location.contacts[i];
+      double              *values  = &buffer[start + contact.point * n_values];
+      const Tensor<1, dim> u       = fields->value(field, contact.cell, contact.factors);
+      for (unsigned int c = 0; c < dim; ++c)
+        values[c] += contact.weight * u[c];
+      if (kind != Kind::row || !quantities.stress)
+        continue;
+      const SymmetricTensor<2, 3> stress =
+        CellFields<dim>::stress(materials[i], fields->reference_gradient(field, contact.cell, contact.factors) *
+                                                contact.inverse_jacobian);
+      for (unsigned int k = 0; k < 6; ++k)
+        values[dim + k] += contact.weight * stress.access_raw_entry(k);
+    }
+}
+
+template <int dim>
+void Receivers<dim>::flush()
+{
+  const MPI_Comm communicator = discretization->communicator;
+  const bool     root         = Utilities::MPI::this_mpi_process(communicator) == 0;
+  const int      ierr = MPI_Reduce(root ? MPI_IN_PLACE : buffer.data(), buffer.data(), int(buffer.size()), MPI_DOUBLE,
+                              MPI_SUM, 0, communicator);
+  AssertThrowMPI(ierr);
+  if (root)
+    process_buffer();
+  headers.clear();
+  buffer.clear();
+  file->flush();
+}
+
+template <int dim>
+void Receivers<dim>::process_buffer()
+{
+  const auto emit = [&](const ReceiverRow<dim> &row) {
+    file->add(row);
+    if (with_errors)
+      error_integrals.add(row);
+  };
+  const unsigned int          n_points = points.names.size();
+  std::vector<Tensor<1, dim>> vectors(n_points);
+  ReceiverRow<dim>            row;
+  const double               *values = buffer.data();
+  for (const Header &header : headers)
+    {
+      row.stress.resize(quantities.stress ? n_points : 0);
+      for (unsigned int point = 0; point < n_points; ++point, values += n_values)
+        {
+          for (unsigned int c = 0; c < dim; ++c)
+            vectors[point][c] = values[c];
+          for (unsigned int k = 0; k < 6 && quantities.stress; ++k)
+            row.stress[point].access_raw_entry(k) = values[dim + k];
+        }
+      if (header.kind == Kind::half_velocity)
+        {
+          history.begin(header.step, header.dt, vectors, emit);
+          continue;
+        }
+      row.time         = header.time;
+      row.displacement = vectors;
+      history.add(header.step, header.dt, vectors, header.kind == Kind::row ? &row : nullptr, emit);
+    }
+}
+
+template <int dim>
+void Receivers<dim>::finish()
+{
+  flush();
+  const MPI_Comm communicator = discretization->communicator;
+  if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    history.finish([&](const ReceiverRow<dim> &row) {
+      file->add(row);
+      if (with_errors)
+        error_integrals.add(row);
+    });
+  file->flush();
+  file.reset();
+  if (with_errors)
+    write_errors();
+}
+
+template <int dim>
+void Receivers<dim>::write_errors()
+{
+  const MPI_Comm communicator = discretization->communicator;
+  error_map.clear();
+  for (const auto &[quantity, error] : error_integrals.of_set())
+    error_map[name + "." + quantity] = Utilities::MPI::broadcast(communicator, error);
+
+  const auto line = [](std::string text, const std::map<std::string, double> &errors) {
+    for (const auto &[quantity, error] : errors)
+      text += "," + table_number(error);
+    return text + "\n";
+  };
+  std::string text = "name";
+  for (const auto &[quantity, error] : error_integrals.of_set())
+    text += "," + quantity;
+  text += line("\nall points", error_integrals.of_set());
+  for (unsigned int point = 0; point < points.names.size(); ++point)
+    text += line(points.names[point], error_integrals.of_point(point));
+  write_text_file(directory + "/receivers-" + name + "-errors.csv", text, communicator);
+}
+
+template <int dim>
+void ReceiverSets<dim>::declare_parameters(Parameters &parameters)
+{
+  names = parameters.peek_list("Receivers");
+  parameters.add_list("Receivers", names, "Sets of points where the motion is recorded; each has its section below.");
+  auto all = parameters.section("Receivers");
+  for (const std::string &name : names)
+    {
+      auto section = parameters.section(name);
+      sets.push_back(std::make_unique<Receivers<dim>>(name));
+      sets.back()->declare_parameters(parameters);
+    }
+}
+
+template <int dim>
+void ReceiverSets<dim>::finalize(const Parameters &parameters)
+{
+  for (auto &set : sets)
+    set->finalize(parameters);
+}
+
+template <int dim>
+void ReceiverSets<dim>::reinit(const Discretization<dim> &discretization, const MaterialOfBlock &material)
+{
+  for (auto &set : sets)
+    set->reinit(discretization, material);
+}
+
+template <int dim>
+void ReceiverSets<dim>::open(const std::string &directory, const double start_time, const double end_time,
+                             const ExactSolution<dim> *exact)
+{
+  for (auto &set : sets)
+    set->open(directory, start_time, end_time, exact, store);
+}
+
+template <int dim>
+void ReceiverSets<dim>::record(const State<dim> &state)
+{
+  for (auto &set : sets)
+    set->record(state);
+}
+
+template <int dim>
+void ReceiverSets<dim>::finish()
+{
+  for (auto &set : sets)
+    set->finish();
+  store.reset();
+}
+
+template <int dim>
+std::map<std::string, double> ReceiverSets<dim>::errors() const
+{
+  std::map<std::string, double> result;
+  for (const auto &set : sets)
+    result.insert(set->errors().begin(), set->errors().end());
+  return result;
+}
+
+template class Receivers<3>;
+template class ReceiverSets<3>;
+} // namespace Arenite

@@ -1,0 +1,156 @@
+#include <arenite/base/values.h>
+#include <arenite/io/files.h>
+#include <arenite/io/statistics.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+
+namespace Arenite
+{
+namespace
+{
+/// printf for one number.
+std::string format(const char *pattern, const double value)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), pattern, value);
+  return text;
+}
+} // namespace
+
+std::string duration(const double seconds)
+{
+  if (!(seconds < 1e9)) // also not a number
+    return "unknown";
+  const long s = std::lround(std::max(seconds, 0.));
+  char       text[64];
+  if (s < 60)
+    std::snprintf(text, sizeof(text), "%ld s", s);
+  else if (s < 3600)
+    std::snprintf(text, sizeof(text), "%ld min %02ld s", s / 60, s % 60);
+  else
+    std::snprintf(text, sizeof(text), "%ld h %02ld min", s / 3600, s / 60 % 60);
+  return text;
+}
+
+void Statistics::declare_parameters(Parameters &parameters)
+{
+  const auto section = parameters.section("Output");
+  parameters.add_quantity(
+    "Progress interval", progress_interval, "s", non_negative,
+    "Wall time between two lines of progress on the screen; they come at rows of the statistics. 0 prints "
+    "every row.");
+  parameters.add_integer(
+    "Statistics interval", row_interval, 1, 1000000,
+    "Steps between two rows of statistics.csv, each with a check of the energy balance. More steps cost less "
+    "and look less often: a row takes about as long as half a step.");
+}
+
+void Statistics::finalize(const Parameters &) {}
+
+void Statistics::open(const OutputDirectory &directory, Log &new_log, const double new_start, const double new_end,
+                      const double new_symmetry_factor)
+{
+  log             = &new_log;
+  communicator    = directory.communicator;
+  active          = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  start           = new_start;
+  end             = new_end;
+  symmetry_factor = new_symmetry_factor;
+  begin = printed_at = Clock::now();
+  if (active)
+    {
+      name  = directory.file("statistics.csv");
+      errno = 0;
+      file.open(name);
+      if (!file)
+        problem = write_problem(name);
+    }
+  agree_on_output(problem, communicator);
+}
+
+void Statistics::write_header(const EnergyReport &report)
+{
+  file << "t [s],step,dt [s],cells,dofs,kinetic (full body) [J],strain (full body) [J],hourglass (full body) [J]";
+  for (const auto &account : report.work)
+    file << ",work of " << account.first << " (full body) [J]";
+  file << ",initial (full body) [J],step changes (full body) [J],adaptation (full body) [J],imbalance (full body) [J],"
+          "relative energy error\n";
+}
+
+void Statistics::add(const EnergyReport &report, const StepInfo &info)
+{
+  if (n_rows > 0)
+    work += static_cast<double>(last_info.n_dofs) * (info.step - last_info.step);
+  // relative to the largest energy so far: the first wave of a run has hardly any
+  largest_scale = std::max(largest_scale, report.scale());
+  last_error    = largest_scale > 0. ? std::abs(report.imbalance()) / largest_scale : 0.;
+  last          = report;
+  last_info     = info;
+  printed_last  = false;
+
+  if (active)
+    {
+      errno = 0;
+      if (n_rows == 0)
+        write_header(report);
+      file << to_text(report.time) << ',' << info.step << ',' << to_text(info.dt) << ',' << info.n_cells << ','
+           << info.n_dofs;
+      const auto energy = [&](const double value) { file << ',' << to_text(symmetry_factor * value); };
+      energy(report.kinetic);
+      energy(report.strain);
+      energy(report.hourglass);
+      for (const auto &account : report.work)
+        energy(account.second);
+      energy(report.initial);
+      energy(report.step_changes);
+      energy(report.adaptation);
+      energy(report.imbalance());
+      file << ',' << to_text(last_error) << '\n' << std::flush;
+      if (!file)
+        problem = write_problem(name);
+      if (n_rows == 0 || std::chrono::duration<double>(Clock::now() - printed_at).count() >= progress_interval)
+        print_progress();
+    }
+  ++n_rows;
+  agree_on_output(problem, communicator);
+}
+
+void Statistics::print_progress()
+{
+  const auto   now     = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - printed_at).count();
+  const double elapsed = std::chrono::duration<double>(now - begin).count();
+
+  std::string text = "t = " + format("%.4e", last.time) + " s, step " + std::to_string(last_info.step) +
+                     ", dt = " + format("%.3e", last_info.dt) + " s, " + std::to_string(last_info.n_cells) +
+                     " cells, energy error " + format("%.1e", last_error);
+  if (work > printed_work && seconds > 0.)
+    text +=
+      ", " +
+      format("%.3g", (work - printed_work) / seconds / 1e6 / dealii::Utilities::MPI::n_mpi_processes(communicator)) +
+      " MDoF/s per core";
+  if (last.time > start && last.time < end)
+    text += ", " + duration(elapsed * (end - last.time) / (last.time - start)) + " left";
+  log->line(text);
+  printed_at   = now;
+  printed_work = work;
+  printed_last = true;
+}
+
+void Statistics::finish()
+{
+  if (active && !printed_last)
+    print_progress();
+  if (file.is_open())
+    {
+      errno = 0;
+      file.close();
+      if (!file && problem.empty())
+        problem = write_problem(name);
+    }
+  agree_on_output(problem, communicator);
+}
+} // namespace Arenite
