@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace Arenite
+{
+/// What the command line says.
+struct RunOptions
+{
+  std::vector<std::string> scenes, overrides;
+  std::string              output;
+  bool                     overwrite = false, markdown = false;
+  unsigned int             levels = 3;
+};
+
+// The commands of the binary; each returns the exit code.
+int run(const RunOptions &);
+int check(const RunOptions &);
+int print_parameters(const RunOptions &);
+int converge(const RunOptions &);
+
+/// Tables of every entry that a scene can have, for all models.
+std::string complete_manual();
+} // namespace Arenite

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <arenite/adaptivity/mesh_adaptor.h>
+#include <arenite/base/parameters.h>
+#include <arenite/io/receivers.h>
+#include <arenite/io/statistics.h>
+#include <arenite/io/vtu_output.h>
+#include <arenite/loads/constraints.h>
+#include <arenite/loads/load.h>
+#include <arenite/materials/elastic_constants.h>
+#include <arenite/mechanics/internal_force.h>
+#include <arenite/mesh/geometry.h>
+#include <arenite/time/stable_time_step.h>
+#include <arenite/verification/solution_choice.h>
+
+#include <list>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Arenite
+{
+/// A material block: a name, the cells' material id, and its law.
+struct Block
+{
+  std::string      name, law = "linear elastic";
+  unsigned int     material_id = 0;
+  ElasticConstants constants;
+  LinearElastic    material;
+};
+
+/// Everything that a .prm says, read and checked. Members in the order of the file's sections.
+template <int dim>
+struct Scene
+{
+  /// Declare the entries of the models that this scene chose, parse strictly, derive and cross-check.
+  explicit Scene(Parameters &);
+
+  std::string title, dimension = "3", symmetry = "none", kinematics = "small strain";
+  double      end_time = std::numeric_limits<double>::quiet_NaN();
+
+  MeshChoice<dim>                           mesh;
+  ElementChoice                             element;
+  std::vector<Block>                        blocks;
+  std::vector<std::unique_ptr<Load<dim>>>   loads;
+  Constraints<dim>                          constraints;
+  std::string                               initial_state = "rest";
+  StableTimeStep<dim>                       time_step;
+  MeshAdaptor<dim>                          adaptor;
+  ReceiverSets<dim>                         receivers;
+  VTUOutput<dim>                            pictures;
+  Statistics                                statistics;
+  SolutionChoice<dim>                       solution_choice;
+  std::shared_ptr<const ExactSolution<dim>> exact_solution;
+
+private:
+  void declare_parameters(Parameters &);
+  void finalize(Parameters &);
+
+  std::vector<std::string> block_names, load_names;
+  std::list<std::string>   load_types; ///< what `set Type` of each load binds to
+};
+} // namespace Arenite

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <arenite/io/log.h>
+#include <arenite/io/output_directory.h>
+#include <arenite/io/run_record.h>
+#include <arenite/simulation/scene.h>
+#include <arenite/time/dynamics.h>
+
+#include <deal.II/distributed/tria.h>
+
+#include <chrono>
+
+namespace Arenite
+{
+/// One run of a scene: holds the members and the order of the calls.
+template <int dim>
+class Simulation
+{
+public:
+  Simulation(Scene<dim> &, Log &, MPI_Comm);
+
+  /// Mesh, unknowns, stable step and initial state, with their lines in the log.
+  void set_up();
+
+  /// From 0 to the end time; writes into @p directory. Fills record(). PhysicsAlarm when the state leaves physics.
+  void run(const OutputDirectory &directory);
+
+  /// Time a few steps and print what a run would cost, for `arenite check`.
+  void describe_cost();
+
+  RunRecord   record;
+  Scene<dim> &scene;
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  void   set_initial_state();
+  void   describe() const;
+  bool   adapt(double dt);
+  void   observe(const OutputDirectory &, double dt, bool last);
+  void   watch(const EnergyReport &);
+  void   write_picture(const OutputDirectory &);
+  double core_seconds(Clock::time_point since) const;
+
+  MaterialOfBlock material_of_block() const;
+
+  Log                                              &log;
+  const MPI_Comm                                    communicator;
+  dealii::parallel::distributed::Triangulation<dim> triangulation;
+  Discretization<dim>                               discretization;
+  std::unique_ptr<Dynamics<dim>>                    dynamics;
+  State<dim>                                        state;
+  double                                            initial_mass = 0., output_seconds = 0., adaptation_seconds = 0.;
+  unsigned int                                      n_adaptations = 0;
+};
+} // namespace Arenite

@@ -1,0 +1,92 @@
+#include <arenite/simulation/commands.h>
+#include <arenite/simulation/scene.h>
+
+namespace Arenite
+{
+namespace
+{
+/// A scene with one load and one receiver set of every kind, so that all their entries appear.
+constexpr const char *one_of_each = R"(
+set End time = 1
+set Blocks = solid
+set Loads = pressure, gravity, absorbing boundary, sponge
+set Receivers = points, line, plane
+subsection Materials
+  subsection solid
+    set Density = 2000
+    set Young modulus = 1e8
+    set Poisson ratio = 0.3
+  end
+end
+subsection Loads
+  subsection pressure
+    set Type = pressure
+    set Boundary = cavity
+  end
+  subsection gravity
+    set Type = gravity
+  end
+  subsection absorbing boundary
+    set Type = absorbing boundary
+    set Boundary = outer
+  end
+  subsection sponge
+    set Type = sponge
+  end
+end
+subsection Constraints
+  set Prescribed velocities = outer
+end
+subsection Receivers
+  subsection points
+    set Points = 0.2, 0, 0
+  end
+  subsection line
+    set Type = line
+    set Start = 0.1, 0, 0
+    set End = 0.4, 0, 0
+    set Interval = 0.1
+  end
+  subsection plane
+    set Type = plane
+    set Corner = 0.1, 0, 0
+    set First edge = 0.1, 0, 0
+    set Second edge = 0, 0.1, 0
+    set Interval = 0.1
+  end
+end
+)";
+} // namespace
+
+std::string complete_manual()
+{
+  Parameters     parameters = Parameters::from_text(one_of_each, "manual");
+  const Scene<3> scene(parameters);
+  std::string    text =
+    "# Parameters\n\nWritten by `./arenite parameters --markdown`; do not edit. Loads, receiver sets and prescribed "
+    "velocities carry the names that a scene gives them; here each kind appears under its own name.\n\n" +
+    parameters.manual();
+
+  text += "\n# Mesh types\n\n" + geometries<3>().catalogue() + "\n";
+  for (const std::string &name : geometries<3>().names())
+    {
+      Parameters entries;
+      const auto geometry = geometries<3>().make(name);
+      {
+        const auto section = entries.section("Mesh");
+        geometry->declare_parameters(entries);
+      }
+      text += "\nEntries of `set Type = " + name + "`:\n\n" + entries.manual();
+    }
+
+  text += "\n# Histories\n";
+  for (const std::string &name : time_history_names())
+    {
+      Parameters entries;
+      const auto history = make_time_history(name);
+      history->declare_parameters(entries);
+      text += "\nEntries of `set History = " + name + "`:\n\n" + entries.manual();
+    }
+  return text;
+}
+} // namespace Arenite

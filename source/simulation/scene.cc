@@ -1,0 +1,106 @@
+#include <arenite/loads/body_force.h>
+#include <arenite/loads/nodal_force.h>
+#include <arenite/simulation/scene.h>
+
+namespace Arenite
+{
+template <int dim>
+Scene<dim>::Scene(Parameters &parameters)
+  : mesh(parameters)
+{
+  declare_parameters(parameters);
+  parameters.parse();
+  finalize(parameters);
+}
+
+template <int dim>
+void Scene<dim>::declare_parameters(Parameters &parameters)
+{
+  parameters.add_text("Title", title, "One line for the log and run.json.");
+  parameters.add_choice("Dimension", dimension, {"3"}, "Space dimension of the mesh.");
+  parameters.add_choice("Symmetry", symmetry, {"none"}, "Symmetry that reduces the dimension.");
+  parameters.add_choice("Kinematics", kinematics, {"small strain"}, "Strain measure.");
+  parameters.add_quantity("End time", end_time, "s", positive, "The run starts at 0 and ends here.");
+
+  block_names = parameters.peek_list("Blocks");
+  load_names  = parameters.peek_list("Loads");
+  if (block_names.empty())
+    block_names = {"solid"};
+  parameters.add_list("Blocks", block_names, "Names of the material blocks; each has a subsection of 'Materials'.");
+  parameters.add_list("Loads", load_names, "Names of the loads; each has a subsection of 'Loads'.");
+
+  mesh.declare_parameters(parameters);
+  element.declare_parameters(parameters);
+  {
+    const auto section = parameters.section("Materials");
+    blocks.reserve(block_names.size());
+    for (const std::string &name : block_names)
+      {
+        blocks.emplace_back();
+        Block &block          = blocks.back();
+        block.name            = name;
+        block.material_id     = blocks.size() - 1;
+        const auto subsection = parameters.section(name);
+        parameters.add_choice("Law", block.law, {"linear elastic"}, "Constitutive law.");
+        parameters.add_integer("Material id", block.material_id, 0, 254,
+                               "Id of the block's cells in the mesh; a single block takes all cells.");
+        block.constants.declare_parameters(parameters);
+      }
+  }
+  {
+    const auto section = parameters.section("Loads");
+    for (const std::string &name : load_names)
+      {
+        const auto  subsection = parameters.section(name);
+        std::string type = parameters.peek_choice("Loads/" + name + "/Type", "pressure", Arenite::loads<dim>().names());
+        loads.push_back(Arenite::loads<dim>().make(type));
+        loads.back()->name = name;
+        load_types.push_back(type);
+        parameters.add_choice("Type", load_types.back(), Arenite::loads<dim>().names(), "Kind of load.");
+        loads.back()->declare_parameters(parameters);
+      }
+  }
+  constraints.declare_parameters(parameters);
+  {
+    const auto section = parameters.section("Initial conditions");
+    parameters.add_choice("State", initial_state, {"rest", "exact solution"}, "Displacement and velocity at t = 0.");
+  }
+  time_step.declare_parameters(parameters);
+  adaptor.declare_parameters(parameters);
+  receivers.declare_parameters(parameters);
+  pictures.declare_parameters(parameters);
+  statistics.declare_parameters(parameters);
+  solution_choice.declare_parameters(parameters);
+}
+
+template <int dim>
+void Scene<dim>::finalize(Parameters &parameters)
+{
+  mesh.finalize(parameters);
+  element.finalize(parameters);
+  for (Block &block : blocks)
+    block.material = block.constants.finalize(parameters);
+  for (auto &load : loads)
+    load->finalize(parameters, *mesh.geometry);
+  constraints.finalize(parameters, *mesh.geometry);
+  time_step.finalize(parameters);
+  adaptor.finalize(parameters, mesh, *mesh.geometry);
+  receivers.finalize(parameters);
+  pictures.finalize(parameters);
+  statistics.finalize(parameters);
+
+  std::shared_ptr<const TimeHistory> pressure;
+  for (const auto &load : loads)
+    if (const auto *candidate = dynamic_cast<const Pressure<dim> *>(load.get()); candidate && !pressure)
+      pressure = candidate->pressure_history().get();
+  exact_solution             = solution_choice.make(parameters, blocks.front().material, pressure);
+  constraints.exact_solution = exact_solution.get();
+  if (!exact_solution && (initial_state == "exact solution" || parameters.is_set("Constraints/Exact boundaries")))
+    parameters.refuse("Verification/Exact solution",
+                      "is needed by 'Initial conditions / State' or 'Constraints / Exact boundaries'");
+  if (exact_solution && exact_solution->has_body_force())
+    loads.push_back(std::make_unique<BodyForce<dim>>(exact_solution));
+}
+
+template struct Scene<3>;
+} // namespace Arenite

@@ -1,0 +1,312 @@
+#include <arenite/base/errors.h>
+#include <arenite/io/error_norms.h>
+#include <arenite/simulation/simulation.h>
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace Arenite
+{
+using namespace dealii;
+
+template <int dim>
+Simulation<dim>::Simulation(Scene<dim> &scene, Log &log, const MPI_Comm communicator)
+  : scene(scene)
+  , log(log)
+  , communicator(communicator)
+  , triangulation(communicator)
+  , discretization(triangulation, scene.element.degree)
+{}
+
+template <int dim>
+double Simulation<dim>::core_seconds(const Clock::time_point since) const
+{
+  return std::chrono::duration<double>(Clock::now() - since).count() * Utilities::MPI::n_mpi_processes(communicator);
+}
+
+template <int dim>
+void Simulation<dim>::set_up()
+{
+  const auto start = Clock::now();
+  scene.mesh.geometry->create(triangulation);
+  const double cells = triangulation.n_global_active_cells() * std::pow(2., dim * scene.mesh.refinement);
+  if (cells * std::pow(scene.element.degree, dim) * dim > 4.2e9)
+    throw InputError("[Mesh] Refinement = " + std::to_string(scene.mesh.refinement) +
+                     " gives more than 4.2e9 unknowns, the limit of 32-bit numbering. Use a coarser mesh.");
+  triangulation.refine_global(scene.mesh.refinement);
+
+  std::vector<types::boundary_id> loaded;
+  for (const auto &load : scene.loads)
+    for (const auto id : load->loaded_boundaries())
+      loaded.push_back(id);
+  scene.adaptor.initial_refinement(triangulation, discretization, loaded);
+
+  std::vector<std::unique_ptr<InternalForce<dim>>> blocks;
+  for (const Block &block : scene.blocks)
+    blocks.push_back(
+      make_elastic_force<dim>(scene.element, block.material,
+                              scene.blocks.size() == 1 ? numbers::invalid_material_id : block.material_id));
+  dynamics =
+    std::make_unique<Dynamics<dim>>(discretization, std::move(blocks), std::move(scene.loads), scene.constraints);
+  dynamics->reinit(state);
+  scene.time_step.calibrate(*dynamics);
+  scene.adaptor.schedule(*dynamics, 0.);
+  set_initial_state();
+  initial_mass              = dynamics->total_mass();
+  record.setup_core_seconds = core_seconds(start);
+  describe();
+}
+
+template <int dim>
+void Simulation<dim>::set_initial_state()
+{
+  if (scene.initial_state == "exact solution")
+    for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+      {
+        const auto u = scene.exact_solution->displacement(discretization.position(node), 0.);
+        const auto v = scene.exact_solution->velocity(discretization.position(node), 0.);
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            state.displacement.local_element(dim * node + c)  = u[c];
+            state.half_velocity.local_element(dim * node + c) = v[c];
+          }
+      }
+  scene.constraints.project(state.half_velocity);
+  for (const unsigned int node : discretization.hanging.list())
+    if (node < discretization.n_owned_nodes())
+      for (unsigned int c = 0; c < dim; ++c)
+        state.half_velocity.local_element(dim * node + c) = 0.;
+}
+
+template <int dim>
+void Simulation<dim>::describe() const
+{
+  const unsigned int ranks = Utilities::MPI::n_mpi_processes(communicator);
+  std::ostringstream text;
+  text << "Mesh       " << scene.mesh.type << ", " << triangulation.n_global_active_cells() << " cells, refinement "
+       << scene.mesh.refinement;
+  if (scene.adaptor.active())
+    text << " + up to " << scene.adaptor.max_passes();
+  text << ", " << ranks << (ranks == 1 ? " process" : " processes") << '\n'
+       << "Unknowns   " << dim * discretization.n_nodes() << ", " << scene.element.type << " of degree "
+       << scene.element.degree << '\n';
+  for (unsigned int b = 0; b < scene.blocks.size(); ++b)
+    {
+      const LinearElastic &m = scene.blocks[b].material;
+      text << "Block      " << scene.blocks[b].name << ": " << dynamics->blocks[b]->description()
+           << "; cp = " << m.p_wave_speed() << " m/s, cs = " << m.s_wave_speed() << " m/s, mass of the full body "
+           << initial_mass * scene.mesh.geometry->symmetry_factor() << " kg\n";
+    }
+  for (const auto &load : dynamics->loads)
+    text << "Load       " << load->name << ": " << load->description() << '\n';
+  text << "Step       stable up to " << scene.time_step.limit() << " s (cell at " << scene.time_step.limiting_place()
+       << "), about " << std::ceil(scene.end_time / scene.time_step.next(0., scene.end_time)) << " steps of "
+       << scene.time_step.next(0., scene.end_time) << " s";
+  log << text.str() << '\n';
+}
+
+template <int dim>
+MaterialOfBlock Simulation<dim>::material_of_block() const
+{
+  return [this](const types::material_id id) {
+    for (const Block &block : scene.blocks)
+      if (scene.blocks.size() == 1 || block.material_id == id)
+        return block.material;
+    return scene.blocks.front().material;
+  };
+}
+
+template <int dim>
+void Simulation<dim>::describe_cost()
+{
+  // the fastest of a few force evaluations; the update and the ledgers add about a tenth
+  double fastest = std::numeric_limits<double>::max();
+  for (unsigned int i = 0; i < 10; ++i)
+    {
+      const auto start = Clock::now();
+      dynamics->compute_force(state);
+      fastest     = std::min(fastest, core_seconds(start));
+      state.force = 0.;
+    }
+  const double steps = std::ceil(scene.end_time / scene.time_step.next(0., scene.end_time));
+  record.measure_memory(communicator);
+  std::ostringstream text;
+  text << "Cost       about " << 1.1 * steps * fastest << " core-seconds for the time loop on this mesh, "
+       << record.total_memory_mb << " MB of memory";
+  if (scene.adaptor.active())
+    text << "; adaptation will change both";
+  log.line(text.str());
+}
+
+template <int dim>
+void Simulation<dim>::run(const OutputDirectory &directory)
+{
+  scene.receivers.reinit(discretization, material_of_block());
+  scene.receivers.open(directory.path(), 0., scene.end_time, scene.exact_solution.get());
+  scene.statistics.open(directory, log, 0., scene.end_time, scene.mesh.geometry->symmetry_factor());
+  const BlockEnergy stored = dynamics->stored_energy(state);
+  {
+    double kinetic = 0.;
+    for (unsigned int i = 0; i < state.half_velocity.locally_owned_size(); ++i)
+      if (state.inverse_mass.local_element(i) > 0.)
+        kinetic += 0.5 * std::pow(state.half_velocity.local_element(i), 2) / state.inverse_mass.local_element(i);
+    dynamics->balance.set_initial(Utilities::MPI::sum(kinetic + stored.strain + stored.hourglass, communicator));
+  }
+
+  const auto start = Clock::now();
+  while (true)
+    {
+      const bool last = state.time >= scene.end_time * (1. - 1e-12);
+      dynamics->compute_force(state);
+      double dt = last ? state.dt_last : scene.time_step.next(state.time, scene.end_time);
+      dynamics->close_force(state, dt);
+      if (!last && scene.adaptor.due(state.time) && adapt(dt))
+        dt = scene.time_step.next(state.time, scene.end_time);
+      observe(directory, dt, last);
+      if (last)
+        break;
+      dynamics->advance(state, dt);
+      record.dof_steps += dim * double(discretization.n_nodes());
+    }
+  scene.receivers.finish();
+  record.errors = scene.receivers.errors();
+  scene.statistics.finish();
+  record.core_seconds        = core_seconds(start) - output_seconds;
+  record.output_core_seconds = output_seconds;
+
+  record.cells           = triangulation.n_global_active_cells();
+  record.dofs            = dim * discretization.n_nodes();
+  record.steps           = state.step;
+  record.time            = state.time;
+  record.energy_error    = dynamics->balance.largest_error();
+  record.symmetry_factor = scene.mesh.geometry->symmetry_factor();
+  if (scene.exact_solution)
+    record.errors.merge(volume_errors(discretization, material_of_block(), state.displacement,
+                                      dynamics->velocity(state), *scene.exact_solution, state.time));
+  if (n_adaptations > 0)
+    log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
+        << 100. * adaptation_seconds / record.core_seconds << " % of the run)\n";
+}
+
+template <int dim>
+bool Simulation<dim>::adapt(const double dt_old)
+{
+  const auto   start         = Clock::now();
+  const double mass          = dynamics->total_mass();
+  const auto   momentum      = dynamics->momentum(state);
+  bool         changed       = false;
+  double       energy_before = 0.;
+  for (unsigned int pass = 0; pass < scene.adaptor.max_passes(); ++pass)
+    {
+      if (!scene.adaptor.mark(triangulation, *dynamics, state))
+        break;
+      if (!changed)
+        energy_before = dynamics->total_energy(state, dt_old);
+      changed = true;
+      scene.adaptor.execute(triangulation, *dynamics, state, scene.time_step);
+      dynamics->compute_force(state);
+      dynamics->close_force(state, scene.time_step.next(state.time, scene.end_time), false);
+    }
+  if (changed)
+    {
+      ++n_adaptations;
+      const double dt = scene.time_step.next(state.time, scene.end_time);
+      dynamics->balance.add_adaptation(dynamics->total_energy(state, dt) - energy_before);
+      double scale = 0.;
+      for (unsigned int i = 0; i < state.half_velocity.locally_owned_size(); ++i)
+        if (state.inverse_mass.local_element(i) > 0.)
+          scale += std::abs(state.half_velocity.local_element(i)) / state.inverse_mass.local_element(i);
+      scale             = Utilities::MPI::sum(scale, communicator);
+      record.mass_error = std::max(record.mass_error, std::abs(dynamics->total_mass() - mass) / initial_mass);
+      if (scale > 0.)
+        record.momentum_error = std::max(record.momentum_error, (dynamics->momentum(state) - momentum).norm() / scale);
+      scene.receivers.reinit(discretization, material_of_block());
+    }
+  scene.adaptor.schedule(*dynamics, state.time);
+  adaptation_seconds += core_seconds(start);
+  return changed;
+}
+
+template <int dim>
+void Simulation<dim>::observe(const OutputDirectory &directory, const double dt, const bool last)
+{
+  scene.receivers.record(state);
+  if (last || scene.statistics.is_due(state.step))
+    {
+      const EnergyReport report = dynamics->report(state, dt);
+      scene.statistics.add(report,
+                           {state.step, dt, triangulation.n_global_active_cells(), dim * discretization.n_nodes()});
+      watch(report);
+    }
+  if (scene.pictures.enabled() && (last || scene.pictures.is_due(state.time, dt)))
+    write_picture(directory);
+}
+
+template <int dim>
+void Simulation<dim>::write_picture(const OutputDirectory &directory)
+{
+  const auto                 start = Clock::now();
+  std::vector<LinearElastic> materials;
+  for (const Block &block : scene.blocks)
+    {
+      materials.resize(std::max<std::size_t>(materials.size(), scene.blocks.size() == 1 ? 1 : block.material_id + 1));
+      materials[scene.blocks.size() == 1 ? 0 : block.material_id] = block.material;
+    }
+  scene.pictures.write(directory, discretization, state.displacement, dynamics->velocity(state), materials, state.time,
+                       state.step);
+  output_seconds += core_seconds(start);
+}
+
+/// Stop a run whose state left physics: with the time, the place and the likely cause.
+template <int dim>
+void Simulation<dim>::watch(const EnergyReport &report)
+{
+  double input = report.initial;
+  for (const auto &account : report.work)
+    input += std::abs(account.second);
+  const double       stored = report.strain + report.hourglass;
+  const bool         finite = std::isfinite(report.kinetic) && std::isfinite(stored);
+  std::ostringstream reason;
+  if (!finite)
+    reason << "the state is not a number any more";
+  else if (report.kinetic < -0.02 * stored && stored > 1e-3 * input)
+    reason << "the kinetic energy is negative (" << report.kinetic << " J beside " << stored
+           << " J of strain energy), the sign of a step above the stability limit";
+  else if (report.kinetic + stored > 10. * input && input > 0.)
+    reason << "the energy grew to " << report.kinetic + stored << " J from " << input << " J of work";
+  else if (std::abs(report.imbalance()) > 0.1 * report.scale() && report.scale() > 0.)
+    reason << "the energy balance is off by " << 100. * report.imbalance() / report.scale() << " %";
+  else
+    return;
+
+  // where: the node with a value that is not finite, else the fastest one
+  double       worst = -1.;
+  unsigned int where = 0;
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    {
+      double speed = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        speed += std::pow(state.half_velocity.local_element(dim * node + c), 2);
+      if (!std::isfinite(speed))
+        speed = std::numeric_limits<double>::max();
+      if (speed > worst)
+        {
+          worst = speed;
+          where = node;
+        }
+    }
+  const auto winner = Utilities::MPI::min_max_avg(worst, communicator);
+  Point<dim> place  = worst >= 0. ? discretization.position(where) : Point<dim>();
+  place             = Utilities::MPI::broadcast(communicator, place, winner.max_index);
+  std::ostringstream message;
+  message << "t = " << report.time << " s, step " << state.step << ", near (" << place << "): " << reason.str()
+          << ".\nThe step is " << state.dt_last << " s, the stable limit " << scene.time_step.limit()
+          << " s. Lower 'Time stepping / Courant number'"
+          << (state.dt_last > scene.time_step.limit() ? " or remove 'Fixed step'" : "")
+          << ", and look at the mesh at that place.";
+  throw PhysicsAlarm(message.str());
+}
+
+template class Simulation<3>;
+} // namespace Arenite
