@@ -51,6 +51,14 @@ void Dynamics<dim>::reinit(State<dim> &state)
 template <int dim>
 void Dynamics<dim>::compute_force(State<dim> &state, const bool overlap)
 {
+  compute_internal_force(state, overlap);
+  for (const auto &load : loads)
+    load->add(state.force, state);
+}
+
+template <int dim>
+void Dynamics<dim>::compute_internal_force(State<dim> &state, const bool overlap)
+{
   const HangingNodes &hanging = discretization.hanging;
   VectorType         &u = state.displacement, &f = state.force;
   const auto          add = [&](const CellPart part) {
@@ -76,8 +84,6 @@ void Dynamics<dim>::compute_force(State<dim> &state, const bool overlap)
     add(CellPart::inner_second);
   f.compress_finish(VectorOperation::add);
   hanging.condense<dim>(f.begin()); // what inner_second left at hanging nodes; the others are zero by now
-  for (const auto &load : loads)
-    load->add(f, state);
 }
 
 template <int dim>

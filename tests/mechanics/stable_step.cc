@@ -38,8 +38,9 @@ double spectral_radius(Body &body, const unsigned int iterations)
 
 BOOST_AUTO_TEST_SUITE(stable_step)
 
-// The estimate never exceeds the stability limit 2/omega_max of the assembled system and does not waste more than a third of it:
-// distorted, curved and hanging-node meshes, all elements, compressible and nearly incompressible.
+// The estimate never exceeds the stability limit 2/omega_max of the assembled system and wastes at most 3 % of it; the bound
+// from the elements alone is never above either. Distorted, curved and hanging-node meshes, all elements, compressible and
+// nearly incompressible.
 BOOST_AUTO_TEST_CASE(bound_of_the_assembled_system, *label("parallel"))
 {
   for (const unsigned int degree : all_elements)
@@ -47,15 +48,18 @@ BOOST_AUTO_TEST_CASE(bound_of_the_assembled_system, *label("parallel"))
       for (const double nu : {0., 0.3, 0.45})
         {
           Body body(
-            element(degree), [&](auto &t) { curved ? shell_octant(t, 1, true) : distorted_cube(t, 3, true); },
-            soil(nu));
+            element(degree), [&](auto &t) { curved ? shell_octant(t, 1, true) : distorted_cube(t, 3, true); }, soil(nu));
           body.assemble();
           StableTimeStep<3> step;
           step.calibrate(*body.dynamics);
-          const double limit = 2. / std::sqrt(spectral_radius(body, 300));
-          BOOST_TEST(step.limit() <= limit, "degree " << degree << " curved " << curved << " nu " << nu);
-          BOOST_TEST(step.limit() >= 0.66 * limit,
-                     "degree " << degree << " curved " << curved << " nu " << nu << ": " << step.limit() / limit);
+          // the power iteration itself comes from below: its limit is up to 0.1 % too long
+          const double      limit = 2. / std::sqrt(spectral_radius(body, 1000));
+          const std::string what  = "degree " + std::to_string(degree) + (curved ? " shell" : " cube") +
+                                   " nu " + std::to_string(nu) + ": ";
+          BOOST_TEST_MESSAGE(what << step.limit() / limit << " elements " << step.element_limit() / limit);
+          BOOST_TEST(step.limit() <= 0.999 * limit, what << step.limit() / limit);
+          BOOST_TEST(step.limit() >= 0.97 * limit, what << step.limit() / limit);
+          BOOST_TEST(step.element_limit() <= 0.999 * limit, what << step.element_limit() / limit);
         }
 }
 

@@ -26,6 +26,9 @@ public:
   /// state.force = f_n. Ghost exchange runs beside the cells that do not need it, unless @p overlap is off.
   void compute_force(State<dim> &, bool overlap = true);
 
+  /// state.force = f_int(u) alone, with the displacement's ghosts and hanging nodes valid afterwards.
+  void compute_internal_force(State<dim> &, bool overlap = true);
+
   /// Apply dashpots and constraints for the coming step and book the work of f_n over the half step behind. After a change of the
   /// mesh that half was already booked with the old forces: @p book_first_half = false.
   void close_force(State<dim> &, double dt, bool book_first_half = true);
