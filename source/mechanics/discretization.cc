@@ -3,6 +3,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_tools.h>
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/lac/affine_constraints.h>
 
@@ -138,18 +139,21 @@ void Discretization<dim>::distribute_nodes()
 template <int dim>
 void Discretization<dim>::positions_from_manifolds()
 {
+  // one evaluation per cell: every call for a single point would place all nodes of the cell anew
+  std::vector<Point<dim>> unit(nodes_per_cell());
+  for (unsigned int i = 0; i < unit.size(); ++i)
+    unit[i] = fe.unit_support_point(lexicographic[i]);
   const MappingQ<dim> mapping(degree());
+  FEValues<dim>       values(mapping, fe, Quadrature<dim>(unit), update_quadrature_points);
   positions = 0.;
   for (unsigned int cell = 0; cell < cell_list.size(); ++cell)
-    for (unsigned int i = 0; i < nodes_per_cell(); ++i)
-      {
-        const unsigned int node = cell_nodes(cell)[i];
-        if (node >= n_owned_nodes())
-          continue;
-        const auto x = mapping.transform_unit_to_real_cell(cell_list[cell], fe.unit_support_point(lexicographic[i]));
-        for (unsigned int c = 0; c < dim; ++c)
-          positions.local_element(dim * node + c) = x[c];
-      }
+    {
+      values.reinit(cell_list[cell]);
+      for (unsigned int i = 0; i < unit.size(); ++i)
+        if (const unsigned int node = cell_nodes(cell)[i]; node < n_owned_nodes())
+          for (unsigned int c = 0; c < dim; ++c)
+            positions.local_element(dim * node + c) = values.quadrature_point(i)[c];
+    }
   make_consistent(*this, positions);
 }
 

@@ -17,6 +17,13 @@ public:
   /// Symmetry planes by boundary id, without a scene.
   void set_symmetry(const std::vector<dealii::types::boundary_id> &ids) { symmetry = ids; }
 
+  /// Boundaries that follow @p solution, without a scene.
+  void set_exact(const std::vector<dealii::types::boundary_id> &ids, const ExactSolution<dim> *solution)
+  {
+    exact          = ids;
+    exact_solution = solution;
+  }
+
   /// Nodal lists for the present mesh. Dashpot blocks of constrained nodes lose their constrained directions.
   void reinit(const Discretization<dim> &);
 
