@@ -1,5 +1,6 @@
 #include <arenite/io/receiver_history.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -83,5 +84,46 @@ std::map<std::string, double> ReceiverErrors<dim>::of_set() const
   return result;
 }
 
+template <int dim>
+void ReceiverNorms<dim>::add(const ReceiverRow<dim> &row)
+{
+  const double half_step = started ? 0.5 * (row.time - last_time) : 0.;
+  const auto   include   = [&](Norm &norm, const auto &values) {
+    double mean = 0.;
+    for (const auto &value : values)
+      {
+        mean += value * value / static_cast<double>(values.size());
+        norm.peak = std::max(norm.peak, std::sqrt(value * value));
+      }
+    norm.integral += half_step * (norm.last + mean);
+    norm.last    = mean;
+    norm.present = !values.empty();
+  };
+  include(displacement, row.displacement);
+  include(velocity, row.velocity);
+  include(stress, row.stress);
+  if (!started)
+    first_time = row.time;
+  last_time = row.time;
+  started   = true;
+}
+
+template <int dim>
+std::map<std::string, double> ReceiverNorms<dim>::of_set() const
+{
+  std::map<std::string, double> result;
+  const auto                    add = [&](const std::string &name, const Norm &norm) {
+    if (!norm.present || !(last_time > first_time))
+      return;
+    result[name + ".rms"]  = std::sqrt(norm.integral / (last_time - first_time));
+    result[name + ".peak"] = norm.peak;
+  };
+  add("displacement", displacement);
+  add("velocity", velocity);
+  add("stress", stress);
+  return result;
+}
+
 template class ReceiverErrors<3>;
+template class ReceiverNorms<3>;
 } // namespace Arenite

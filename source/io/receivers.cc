@@ -200,6 +200,7 @@ void Receivers<dim>::process_buffer()
 {
   const auto emit = [&](const ReceiverRow<dim> &row) {
     file->add(row);
+    signal_norms.add(row);
     if (with_errors)
       error_integrals.add(row);
   };
@@ -236,11 +237,13 @@ void Receivers<dim>::finish()
   if (Utilities::MPI::this_mpi_process(communicator) == 0)
     history.finish([&](const ReceiverRow<dim> &row) {
       file->add(row);
+      signal_norms.add(row);
       if (with_errors)
         error_integrals.add(row);
     });
   file->flush();
   file.reset();
+  norm_map = Utilities::MPI::broadcast(communicator, signal_norms.of_set());
   if (with_errors)
     write_errors();
 }
@@ -316,6 +319,16 @@ void ReceiverSets<dim>::finish()
   for (auto &set : sets)
     set->finish();
   store.reset();
+}
+
+template <int dim>
+std::map<std::string, double> ReceiverSets<dim>::norms() const
+{
+  std::map<std::string, double> result;
+  for (const auto &set : sets)
+    for (const auto &[quantity, norm] : set->norms())
+      result[set->set_name() + "." + quantity] = norm;
+  return result;
 }
 
 template <int dim>

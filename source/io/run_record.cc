@@ -36,6 +36,8 @@ void RunRecord::write(const OutputDirectory &directory) const
       json["ranks"]                 = dealii::Utilities::MPI::n_mpi_processes(directory.communicator);
       json["lanes"]                 = lanes;
       json["dimension"]             = dimension;
+      json["element"]               = element;
+      json["degree"]                = degree;
       json["symmetry_factor"]       = symmetry_factor;
       json["cells"]                 = cells;
       json["dofs"]                  = dofs;
@@ -53,6 +55,9 @@ void RunRecord::write(const OutputDirectory &directory) const
       json["errors"]                = nlohmann::ordered_json::object();
       for (const auto &error : errors)
         json["errors"][error.first] = error.second;
+      json["values"] = nlohmann::ordered_json::object();
+      for (const auto &value : values)
+        json["values"][value.first] = value.second;
       // a title in another encoding must not cost the record of the run
       const std::string text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
       problem = replace_file(directory.file("run.json"), [&](std::ostream &file) { file << text << '\n'; });

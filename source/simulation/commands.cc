@@ -2,6 +2,7 @@
 #include <arenite/base/time_history.h>
 #include <arenite/io/files.h>
 #include <arenite/simulation/commands.h>
+#include <arenite/simulation/convergence_table.h>
 #include <arenite/simulation/simulation.h>
 
 #include <cmath>
@@ -46,6 +47,15 @@ RunRecord run_scene(const RunOptions &options, const std::vector<std::string> &o
   log.finish();
   return record;
 }
+
+/// `Mesh / Refinement` as the scene has it, before the objects that check it exist.
+unsigned int first_refinement(const Parameters &parameters)
+{
+  const std::string text = parameters.peek("Mesh/Refinement", "0");
+  if (text.empty() || text.size() > 2 || text.find_first_not_of("0123456789") != std::string::npos)
+    parameters.refuse("Mesh/Refinement", "must be a number of refinements");
+  return std::stoi(text);
+}
 } // namespace
 
 int run(const RunOptions &options)
@@ -85,49 +95,24 @@ int print_parameters(const RunOptions &options)
   return 0;
 }
 
-namespace
-{
-/// Order of the error and the coefficient C of e = C h^q from two meshes.
-double observed_order(const double coarse, const double fine) { return std::log2(coarse / fine); }
-} // namespace
-
 int converge(const RunOptions &options)
 {
-  Log                log(MPI_COMM_WORLD);
-  const unsigned int first =
-    std::stoi(Parameters::from_files(options.scenes, options.overrides).peek("Mesh/Refinement", "0"));
-  std::vector<RunRecord> records;
+  Log                    log(MPI_COMM_WORLD);
+  const Parameters       parameters = Parameters::from_files(options.scenes, options.overrides);
+  const unsigned int     first      = first_refinement(parameters);
   const OutputDirectory  base(options.output, options.scenes.front(), true, MPI_COMM_WORLD);
+  std::vector<RunRecord> records;
   for (unsigned int level = 0; level < options.levels; ++level)
     {
       std::vector<std::string> overrides = options.overrides;
       overrides.push_back("Mesh/Refinement=" + std::to_string(first + level));
-      records.push_back(run_scene(options, overrides, base.path() + "/level-" + std::to_string(first + level), log));
+      log << "\n--- refinement " << first + level << '\n';
+      records.push_back(
+        run_scene(options, overrides, base.path() + "/refinement-" + std::to_string(first + level), log));
     }
-
-  log << "\nConvergence under refinement of " << options.scenes.front()
-      << ": error, and observed order in the cell size\n";
-  for (const auto &[key, value] : records.front().errors)
-    {
-      (void)value;
-      std::ostringstream line;
-      line << std::left << std::setw(36) << key << std::scientific << std::setprecision(3);
-      for (unsigned int i = 0; i < records.size(); ++i)
-        {
-          const double error = records[i].errors.at(key);
-          line << error;
-          if (i > 0)
-            line << std::fixed << std::setprecision(2) << " (" << observed_order(records[i - 1].errors.at(key), error)
-                 << ")" << std::scientific << std::setprecision(3);
-          line << "  ";
-        }
-      log.line(line.str());
-    }
-  std::ostringstream cost;
-  cost << std::left << std::setw(36) << "core-seconds" << std::scientific << std::setprecision(3);
-  for (const RunRecord &record : records)
-    cost << record.core_seconds << "         ";
-  log.line(cost.str());
+  log << "\nConvergence of " << options.scenes.front() << ", refinements " << first << " to "
+      << first + options.levels - 1 << '\n'
+      << convergence_table(records);
   return 0;
 }
 } // namespace Arenite

@@ -171,10 +171,13 @@ void Simulation<dim>::run(const OutputDirectory &directory)
     }
   scene.receivers.finish();
   record.errors = scene.receivers.errors();
+  record.values = scene.receivers.norms();
   scene.statistics.finish();
   record.core_seconds        = core_seconds(start) - output_seconds;
   record.output_core_seconds = output_seconds;
 
+  record.element         = scene.element.type;
+  record.degree          = scene.element.degree;
   record.cells           = triangulation.n_global_active_cells();
   record.dofs            = dim * discretization.n_nodes();
   record.steps           = state.step;

@@ -46,7 +46,7 @@ double largest_eigenvalue(Dynamics<dim> &dynamics, const unsigned int n_iteratio
   };
   for (unsigned int i = 0; i < n; ++i)
     {
-      const Point<dim> x = discretization.position(i / dim);
+      const Point<dim> x     = discretization.position(i / dim);
       double           phase = 1.1 * (i % dim);
       for (unsigned int d = 0; d < dim; ++d)
         phase += 1e5 * (1. + 0.37 * d) * x[d] / x.norm();
@@ -72,7 +72,7 @@ double largest_eigenvalue(Dynamics<dim> &dynamics, const unsigned int n_iteratio
       VectorType &w = state.force; // A q - beta q_last - alpha q
       for (unsigned int i = 0; i < n; ++i)
         {
-          const double m    = root_mass.local_element(i);
+          const double m     = root_mass.local_element(i);
           w.local_element(i) = (m > 0. ? -w.local_element(i) / m : 0.) - (k > 0 ? beta : 0.) * last.local_element(i);
         }
       const double alpha = dot(w, q);

@@ -1,7 +1,7 @@
+#include <arenite/adaptivity/field_transfer.h>
+
 #include "body.h"
 #include "scene_run.h"
-
-#include <arenite/adaptivity/field_transfer.h>
 
 using namespace Arenite;
 using namespace Arenite::Test;
@@ -59,13 +59,13 @@ BOOST_AUTO_TEST_CASE(transfer_keeps_polynomials, *label("parallel"))
 {
   for (const unsigned int degree : {1u, 2u, 4u})
     {
-      Body body(element(degree), [&](auto &t) { shell_octant(t, 1, false); });
-      auto      &mesh = body.discretization;
-      VectorType field = mesh.new_vector(), start;
+      Body       body(element(degree), [&](auto &t) { shell_octant(t, 1, false); });
+      auto      &mesh   = body.discretization;
+      VectorType field  = mesh.new_vector(), start;
       const auto motion = [](const Point<3> &x) { return Tensor<1, 3>({x[0] - 2. * x[1], x[2] + 0.5, 3. * x[1]}); };
       body.set(field, motion); // linear in the positions, so linear in the nodes whatever the cell's shape
       make_consistent(mesh, field);
-      start = field;
+      start             = field;
       const auto change = [&](const std::function<void(const dealii::Triangulation<3>::active_cell_iterator &)> &flag) {
         for (const auto &cell : body.triangulation.active_cell_iterators())
           if (cell->is_locally_owned())
@@ -113,15 +113,18 @@ BOOST_AUTO_TEST_CASE(front_is_followed, *label("parallel"))
   adaptive.push_back("Adaptivity/Levels=1");
   adaptive.push_back("Adaptivity/Refine above=0.1");
   adaptive.push_back("Adaptivity/Coarsen below=0.02");
-  const RunRecord fine = run_scene(cavity, uniform), followed = run_scene(cavity, adaptive), coarse = run_scene(cavity, element);
-  const std::string key = "array.displacement.E_t";
-  BOOST_TEST_MESSAGE("E_t fine " << fine.errors.at(key) << " adaptive " << followed.errors.at(key) << " coarse " << coarse.errors.at(key)
-                                 << ", unknowns x steps " << fine.dof_steps << " " << followed.dof_steps << " momentum " << followed.momentum_error);
+  const RunRecord fine = run_scene(cavity, uniform), followed = run_scene(cavity, adaptive),
+                  coarse = run_scene(cavity, element);
+  const std::string key  = "array.displacement.E_t";
+  BOOST_TEST_MESSAGE("E_t fine " << fine.errors.at(key) << " adaptive " << followed.errors.at(key) << " coarse "
+                                 << coarse.errors.at(key) << ", unknowns x steps " << fine.dof_steps << " "
+                                 << followed.dof_steps << " momentum " << followed.momentum_error);
   BOOST_TEST(followed.energy_error < 1e-11);
   BOOST_TEST(followed.mass_error < 1e-4);
   BOOST_TEST(followed.errors.at(key) < 1.3 * fine.errors.at(key));
   BOOST_TEST(followed.errors.at(key) < 0.5 * coarse.errors.at(key));
-  BOOST_TEST(followed.dof_steps < 0.9 * fine.dof_steps); // 0.84 on this short path; benchmarks/ show what longer ones save
+  BOOST_TEST(followed.dof_steps <
+             0.9 * fine.dof_steps); // 0.84 on this short path; benchmarks/ show what longer ones save
 }
 
 BOOST_AUTO_TEST_SUITE_END()

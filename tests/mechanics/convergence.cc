@@ -39,8 +39,9 @@ double manufactured_error(const ElementChoice &choice, std::shared_ptr<const Exa
       body.dynamics->advance(body.state, end / n_steps);
     }
   make_consistent(body.discretization, body.state.displacement);
-  return volume_errors<3>(body.discretization, [&](types::material_id) { return body.law; }, body.state.displacement,
-                          body.state.displacement, *exact, end)
+  return volume_errors<3>(
+           body.discretization, [&](types::material_id) { return body.law; }, body.state.displacement,
+           body.state.displacement, *exact, end)
     .at("volume.displacement.E_x");
 }
 
@@ -52,8 +53,9 @@ void check_order(const unsigned int degree, std::shared_ptr<const ExactSolution<
   double             error[2];
   const unsigned int p = element(degree).degree;
   for (const unsigned int k : {0u, 1u})
-    error[k] = manufactured_error(element(degree), exact, [&](auto &t) { make_mesh(t, k); }, boundaries,
-                                  0.4 / std::pow(2., 0.5 * k * (p - 1.)), end);
+    error[k] = manufactured_error(
+      element(degree), exact, [&](auto &t) { make_mesh(t, k); }, boundaries, 0.4 / std::pow(2., 0.5 * k * (p - 1.)),
+      end);
   const double q = order(error[0], error[1]);
   BOOST_TEST_MESSAGE(what << ", degree " << degree << ": " << error[0] << " " << error[1] << " order " << q);
   BOOST_TEST(q > p + 0.8, what << ", degree " << degree << ": " << error[0] << " " << error[1] << " order " << q);
@@ -66,8 +68,9 @@ BOOST_AUTO_TEST_SUITE(convergence)
 // order p + 0.8 at least (p + 1 asymptotically), for every element.
 BOOST_AUTO_TEST_CASE(manufactured_cube)
 {
-  const auto exact = std::make_shared<ManufacturedCube<3>>(soil(), Tensor<1, 3>({1e-3, 7e-4, 4e-4}),
-                                                           Tensor<1, 3>({numbers::PI, numbers::PI, numbers::PI}), 900., 0.4);
+  const auto exact =
+    std::make_shared<ManufacturedCube<3>>(soil(), Tensor<1, 3>({1e-3, 7e-4, 4e-4}),
+                                          Tensor<1, 3>({numbers::PI, numbers::PI, numbers::PI}), 900., 0.4);
   for (const unsigned int degree : all_elements)
     for (const bool hanging : {false, true})
       check_order(

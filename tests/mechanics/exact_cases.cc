@@ -15,8 +15,9 @@ namespace
 std::function<void(Body::Triangulation &)> ball(const std::string &sector, const unsigned int refinement)
 {
   return [=](Body::Triangulation &triangulation) {
-    Parameters parameters = Parameters::from_text("subsection Mesh\nset Sector = " + sector + "\nset Radius = 1\nend\n", "test");
-    const auto geometry   = geometries<3>().make("ball");
+    Parameters parameters =
+      Parameters::from_text("subsection Mesh\nset Sector = " + sector + "\nset Radius = 1\nend\n", "test");
+    const auto geometry = geometries<3>().make("ball");
     {
       const auto section = parameters.section("Mesh");
       geometry->declare_parameters(parameters);
@@ -37,8 +38,8 @@ double frequency(Body &body, const FreeVibration<3> &mode)
   const VectorType  shape = body.state.displacement;
   StableTimeStep<3> limit;
   limit.calibrate(*body.dynamics);
-  const double       dt      = 0.8 * limit.limit();
-  const unsigned int n_steps = 1.5 * 2. * numbers::PI / mode.angular_frequency() / dt;
+  const double       dt        = 0.8 * limit.limit();
+  const unsigned int n_steps   = 1.5 * 2. * numbers::PI / mode.angular_frequency() / dt;
   double             numerator = 0., denominator = 0., q[3] = {0., 0., 0.};
   for (unsigned int k = 0; k < n_steps; ++k)
     {
@@ -100,7 +101,7 @@ BOOST_AUTO_TEST_CASE(cavity_under_pressure_step)
 // Smooth pulse sin^6, 1.2 ms long, in the same cavity: a quarter of the cells resolve it.
 BOOST_AUTO_TEST_CASE(cavity_under_smooth_pulse)
 {
-  std::string scene = cavity_scene;
+  std::string scene   = cavity_scene;
   const auto  replace = [&](const std::string &what, const std::string &by) {
     scene.replace(scene.find(what), what.size(), by);
   };

@@ -226,8 +226,8 @@ BOOST_AUTO_TEST_CASE(free_fall, *label("parallel"))
       double worst = 0.;
       for (unsigned int node = 0; node < body.discretization.n_owned_nodes(); ++node)
         for (unsigned int c = 0; c < 3; ++c)
-          worst = std::max(worst,
-                           std::abs(body.state.displacement.local_element(3 * node + c) - 0.5 * g[c] * end * end));
+          worst =
+            std::max(worst, std::abs(body.state.displacement.local_element(3 * node + c) - 0.5 * g[c] * end * end));
       worst = Utilities::MPI::max(worst, MPI_COMM_WORLD);
       BOOST_TEST(worst < 1e-12 * 0.5 * g.norm() * end * end, "degree " << degree << ": " << worst);
       const BlockEnergy energy = body.dynamics->stored_energy(body.state);
@@ -300,9 +300,9 @@ BOOST_AUTO_TEST_CASE(pressure_on_closed_surfaces, *label("parallel"))
               cell->set_refine_flag();
           t.execute_coarsening_and_refinement();
         });
-        body.assemble(together(cavity ? load("pressure", "set Boundary = cavity\nset Amplitude = 3", "spherical shell") :
-                                    load("pressure", "set Amplitude = 3\n"
-                                                     "set Boundary = x min, x max, y min, y max, z min, z max")));
+        body.assemble(together(cavity ? load("pressure", "set Boundary = cavity\nset Amplitude = 3", "spherical shell")
+                                      : load("pressure", "set Amplitude = 3\n"
+                                                         "set Boundary = x min, x max, y min, y max, z min, z max")));
         body.dynamics->loads.front()->add(body.state.force, body.state);
         Tensor<1, 3> resultant, moment;
         double       sum = 0.;
@@ -374,12 +374,13 @@ BOOST_AUTO_TEST_CASE(ledgers_agree_under_loads, *label("parallel"))
           set Rise time = 1e-3
         end
       )");
-      body.assemble(together(load("pressure", "set Boundary = y max, z max\nset Amplitude = 1e5\nset History = sin^n pulse\n"
-                                          "set Duration = 2e-3"),
-                         load("gravity", "set Acceleration = 0, 0, -9.81\nset Amplitude = 100"),
-                         load("absorbing boundary", "set Boundary = x max, y min"),
-                         load("absorbing boundary", "set Boundary = z max\nset Condition = spherical"),
-                         load("sponge", "set Shape = plane\nset Direction = 1, 0, 0\nset Start = 1\nset End = 2")));
+      body.assemble(
+        together(load("pressure", "set Boundary = y max, z max\nset Amplitude = 1e5\nset History = sin^n pulse\n"
+                                  "set Duration = 2e-3"),
+                 load("gravity", "set Acceleration = 0, 0, -9.81\nset Amplitude = 100"),
+                 load("absorbing boundary", "set Boundary = x max, y min"),
+                 load("absorbing boundary", "set Boundary = z max\nset Condition = spherical"),
+                 load("sponge", "set Shape = plane\nset Direction = 1, 0, 0\nset Start = 1\nset End = 2")));
       const double dt = 0.9 * stable_step(body);
       for (unsigned int k = 0; k < 100; ++k)
         {

@@ -1,6 +1,4 @@
 // The kernels against an independent implementation of the same elements: deal.II's matrix-free evaluation.
-#include "body.h"
-
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
@@ -11,6 +9,8 @@
 
 #include <map>
 #include <tuple>
+
+#include "body.h"
 
 using namespace Arenite;
 using namespace Arenite::Test;
@@ -39,9 +39,9 @@ VectorType reference_force(const Body &body, const Quadrature<1> &rule)
   matrix_free.initialize_dof_vector(u);
   matrix_free.initialize_dof_vector(force);
   // system unknown <-> node and component
-  std::vector<types::global_dof_index>                    indices(fe.n_dofs_per_cell());
-  std::map<types::global_dof_index, unsigned int>         entry_of;
-  const Discretization<3>                                &discretization = body.discretization;
+  std::vector<types::global_dof_index>            indices(fe.n_dofs_per_cell());
+  std::map<types::global_dof_index, unsigned int> entry_of;
+  const Discretization<3>                        &discretization = body.discretization;
   for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
     {
       const auto &node_cell = discretization.cells()[cell];

@@ -48,14 +48,15 @@ BOOST_AUTO_TEST_CASE(bound_of_the_assembled_system, *label("parallel"))
       for (const double nu : {0., 0.3, 0.45})
         {
           Body body(
-            element(degree), [&](auto &t) { curved ? shell_octant(t, 1, true) : distorted_cube(t, 3, true); }, soil(nu));
+            element(degree), [&](auto &t) { curved ? shell_octant(t, 1, true) : distorted_cube(t, 3, true); },
+            soil(nu));
           body.assemble();
           StableTimeStep<3> step;
           step.calibrate(*body.dynamics);
           // the power iteration itself comes from below: its limit is up to 0.1 % too long
           const double      limit = 2. / std::sqrt(spectral_radius(body, 1000));
-          const std::string what  = "degree " + std::to_string(degree) + (curved ? " shell" : " cube") +
-                                   " nu " + std::to_string(nu) + ": ";
+          const std::string what =
+            "degree " + std::to_string(degree) + (curved ? " shell" : " cube") + " nu " + std::to_string(nu) + ": ";
           BOOST_TEST_MESSAGE(what << step.limit() / limit << " elements " << step.element_limit() / limit);
           BOOST_TEST(step.limit() <= 0.999 * limit, what << step.limit() / limit);
           BOOST_TEST(step.limit() >= 0.97 * limit, what << step.limit() / limit);

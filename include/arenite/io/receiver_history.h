@@ -76,6 +76,29 @@ private:
   bool                            started   = false;
 };
 
+/// How large the signals of a set are, for comparisons between runs without an exact solution:
+///
+///   rms = sqrt(sum_k integral |q|^2 dt / (K T)),   peak = max |q| over points and rows.
+template <int dim>
+class ReceiverNorms
+{
+public:
+  void add(const ReceiverRow<dim> &row);
+
+  /// "displacement.rms" ...; quantities that are not recorded are left out.
+  std::map<std::string, double> of_set() const;
+
+private:
+  struct Norm
+  {
+    double integral = 0., last = 0., peak = 0.;
+    bool   present = false;
+  };
+  Norm   displacement, velocity, stress;
+  double first_time = 0., last_time = 0.;
+  bool   started = false;
+};
+
 template <int dim>
 template <typename Emit>
 void VelocityHistory<dim>::complete(const Vectors &after, const double dt_after, const Emit &emit)

@@ -42,6 +42,11 @@ public:
   /// "<set>.<quantity>.E_t", on all processes after finish(); empty without exact solution.
   const std::map<std::string, double> &errors() const { return error_map; }
 
+  const std::string &set_name() const { return name; }
+
+  /// "<quantity>.rms|peak", on all processes after finish().
+  const std::map<std::string, double> &norms() const { return norm_map; }
+
   const std::vector<dealii::Point<dim>> &positions() const { return location.positions; }
 
 private:
@@ -92,7 +97,8 @@ private:
   ReceiverErrors<dim>                error_integrals;
   bool                               with_errors = false;
   std::unique_ptr<ReceiverFile<dim>> file;
-  std::map<std::string, double>      error_map;
+  ReceiverNorms<dim>                 signal_norms;
+  std::map<std::string, double>      error_map, norm_map;
 };
 
 /// All sets of a scene: the list `Receivers` at the top level and a section `Receivers / <name>` for each.
@@ -108,6 +114,7 @@ public:
   void finish();
 
   std::map<std::string, double> errors() const;
+  std::map<std::string, double> norms() const;
 
 private:
   std::vector<std::string>                     names;

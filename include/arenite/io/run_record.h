@@ -18,7 +18,8 @@ struct RunRecord
   std::string              title;
   std::vector<std::string> scenes, overrides; ///< as on the command line
 
-  unsigned int  dimension = 3, lanes = native_lanes;
+  std::string   element;
+  unsigned int  dimension = 3, degree = 1, lanes = native_lanes;
   double        symmetry_factor = 1.;
   std::uint64_t cells = 0, dofs = 0, steps = 0; ///< of the last mesh; unknowns = components of all nodes
   double        time      = 0.;                 ///< reached [s]
@@ -30,6 +31,8 @@ struct RunRecord
   double energy_error = 0., mass_error = 0., momentum_error = 0.;
   /// "<receiver set or volume>.<quantity>.E_t|E_x|E_inf" -> relative error
   std::map<std::string, double> errors;
+  /// "<receiver set>.<quantity>.rms|peak" and energies: what runs without an exact solution are compared by
+  std::map<std::string, double> values;
 
   double peak_memory_mb = 0., total_memory_mb = 0.; ///< largest process, and all together; see measure_memory()
 
