@@ -1,3 +1,4 @@
+#include <arenite/base/errors.h>
 #include <arenite/base/names.h>
 #include <arenite/base/values.h>
 #include <arenite/io/receivers.h>
@@ -107,7 +108,9 @@ void Receivers<dim>::open(const std::string &directory_, const double start_time
       // rows at the first step and at every multiple of the interval that follows
       const double n_rows =
         std::floor(end_time / interval + time_tolerance) - std::floor(start_time / interval + time_tolerance) + 1.;
-      AssertThrow(n_rows < 1e9, ExcMessage("The interval of the receivers " + name + " is too short."));
+      if (n_rows > 1e7)
+        throw InputError("[Receivers / " + name + "] Interval = " + to_text(interval) +
+                         " s gives more than 1e7 rows until the end time. Is it shorter than the step?");
       file = make_receiver_group<dim>(store, name, location.positions, quantities, std::size_t(n_rows));
     }
 }

@@ -10,8 +10,9 @@ template <int dim>
 void BodyForce<dim>::reinit(const Discretization<dim> &mesh, const NodalMass &mass, const LinearElastic &material)
 {
   discretization = &mesh;
-  volume         = mass.partial;
-  volume /= material.density;
+  copy_with_ghosts(mass.partial, volume);
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    volume.local_element(node) /= material.density;
   current = mesh.new_vector();
 }
 

@@ -31,7 +31,7 @@ void Dynamics<dim>::reinit(State<dim> &state)
       block->reinit(discretization);
       block->add_mass(nodal.partial);
     }
-  nodal.condensed  = nodal.partial;
+  copy_with_ghosts(nodal.partial, nodal.condensed);
   VectorType &mass = nodal.condensed;
   discretization.hanging.template condense<1>(mass.begin());
   mass.compress(VectorOperation::add);

@@ -7,6 +7,7 @@
 #include <deal.II/fe/mapping.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -105,6 +106,13 @@ private:
 /// Exchange ghosts of a nodal vector, then fill its hanging nodes.
 template <int dim>
 void make_consistent(const Discretization<dim> &, VectorType &);
+
+/// Copy with the ghost entries: deal.II's constructors and assignments leave out what waits there for compress().
+inline void copy_with_ghosts(const VectorType &from, VectorType &to)
+{
+  to.reinit(from.get_partitioner());
+  std::copy_n(from.begin(), from.locally_owned_size() + from.get_partitioner()->n_ghost_indices(), to.begin());
+}
 
 template <int dim>
 void HangingNodes::interpolate(double *u, const unsigned int begin, const unsigned int end) const
