@@ -121,7 +121,8 @@ void Discretization<dim>::distribute_nodes()
       for (const auto i : hanging_lines)
         {
           masters.clear();
-          bool has_ghost = false;
+          // a ghost that hangs is overwritten by the exchange, so it counts as dependent whatever its masters are
+          bool has_ghost = local(i) >= n_owned_nodes();
           for (const auto &entry : *constraints.get_constraint_entries(i))
             {
               masters.emplace_back(local(entry.first), entry.second);
