@@ -118,6 +118,7 @@ void MeshAdaptor<dim>::initial_refinement(Triangulation &triangulation, Discreti
               front[cell->active_cell_index()] = true;
       grow(triangulation, front);
       flag(triangulation, front, quiet);
+      check_size(triangulation, 0.);
       FieldTransfer<dim> transfer(discretization);
       transfer.add(discretization.positions);
       transfer.prepare();
@@ -136,7 +137,7 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
 {
   const Discretization<dim> &discretization = dynamics.discretization;
   const auto                &cells          = discretization.cells();
-  indicator.reinit(cells.size());
+  Vector<float>              indicator(cells.size());
   kind->evaluate(discretization, state, dynamics.velocity(state), dynamics.blocks.front()->material(), indicator);
   const float largest = Utilities::MPI::max(cells.empty() ? 0.f : indicator.linfty_norm(), discretization.communicator);
 
@@ -148,19 +149,27 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
     }
   grow(triangulation, front);
   flag(triangulation, front, quiet);
-  unsigned int changes = 0, refined = 0;
+  check_size(triangulation, state.time);
+  unsigned int changes = 0;
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
-      {
-        refined += cell->refine_flag_set();
-        changes += cell->refine_flag_set() || cell->coarsen_flag_set();
-      }
-  refined = Utilities::MPI::sum(refined, discretization.communicator);
+      changes += cell->refine_flag_set() || cell->coarsen_flag_set();
+  return Utilities::MPI::max(changes, discretization.communicator) > 0;
+}
+
+/// The flagged mesh must stay below the limit of the scene; said before any memory is asked for.
+template <int dim>
+void MeshAdaptor<dim>::check_size(const Triangulation &triangulation, const double time) const
+{
+  unsigned int refined = 0;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      refined += cell->refine_flag_set();
+  refined = Utilities::MPI::sum(refined, triangulation.get_communicator());
   if (triangulation.n_global_active_cells() + (GeometryInfo<dim>::max_children_per_cell - 1.) * refined > cell_limit)
-    throw InputError("t = " + Utilities::to_string(state.time) + " s: adaptation needs more than " +
+    throw InputError("t = " + Utilities::to_string(time) + " s: adaptation needs more than " +
                      std::to_string(cell_limit) +
                      " cells. Raise 'Adaptivity / Largest number of cells', raise 'Refine above' or use fewer levels.");
-  return Utilities::MPI::max(changes, discretization.communicator) > 0;
 }
 
 template <int dim>

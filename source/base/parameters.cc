@@ -173,7 +173,7 @@ void Parameters::add(Entry entry)
 void Parameters::add_quantity(const std::string &name, double &value, const std::string &unit, const Range &range,
                               const std::string &sentence)
 {
-  Entry entry{name, to_text(value), "", unit, describe(range), sentence, false, nullptr, {}, {}};
+  Entry entry{name, to_text(value), "", unit, describe(range), sentence, false, false, nullptr, {}, {}};
   entry.pattern   = std::make_shared<Patterns::Double>();
   entry.complaint = [unit, range](const std::string &text) -> std::string {
     const std::string complaint = complaint_about_number(text, unit);
@@ -192,7 +192,7 @@ template <int dim>
 void Parameters::add_vector(const std::string &name, dealii::Tensor<1, dim> &value, const std::string &unit,
                             const std::string &sentence)
 {
-  Entry entry{name, to_text(value), "", unit, "", sentence, false, nullptr, {}, {}};
+  Entry entry{name, to_text(value), "", unit, "", sentence, false, false, nullptr, {}, {}};
   entry.admissible = dim == 1 ? "any number" : std::to_string(dim) + " numbers separated by commas";
   entry.pattern    = std::make_shared<Patterns::List>(Patterns::Double(), dim, dim);
   entry.complaint  = [unit](const std::string &text) { return complaint_about_vector(text, dim, unit); };
@@ -215,7 +215,7 @@ void Parameters::add_points(const std::string &name, std::vector<dealii::Point<d
   };
 
   const std::string form = dim == 1 ? "x; x" : dim == 2 ? "x, y; x, y" : "x, y, z; x, y, z";
-  Entry entry{name, all_to_text(value), "", unit, "points '" + form + "'", sentence, false, nullptr, {}, {}};
+  Entry entry{name, all_to_text(value), "", unit, "points '" + form + "'", sentence, false, false, nullptr, {}, {}};
   entry.pattern   = std::make_shared<Patterns::List>(Patterns::List(Patterns::Double(), dim, dim), 0,
                                                    Patterns::List::max_int_value, ";");
   entry.complaint = [unit, form](const std::string &text) -> std::string {
@@ -244,7 +244,7 @@ void Parameters::add_integer(const std::string &name, unsigned int &value, const
   const std::string  rule = upper >= INT_MAX
                               ? "integer >= " + std::to_string(lower)
                               : "integer in [" + std::to_string(lower) + ", " + std::to_string(upper) + "]";
-  Entry              entry{name, std::to_string(value), "", "", rule, sentence, false, nullptr, {}, {}};
+  Entry              entry{name, std::to_string(value), "", "", rule, sentence, false, false, nullptr, {}, {}};
   entry.pattern   = std::make_shared<Patterns::Integer>(lower, last);
   entry.complaint = [pattern = entry.pattern, rule](const std::string &text) {
     return pattern->match(text) ? "" : "must be an " + rule + ".";
@@ -258,7 +258,7 @@ void Parameters::add_integer(const std::string &name, unsigned int &value, const
 
 void Parameters::add_flag(const std::string &name, bool &value, const std::string &sentence)
 {
-  Entry entry{name, value ? "true" : "false", "", "", "true or false", sentence, false, nullptr, {}, {}};
+  Entry entry{name, value ? "true" : "false", "", "", "true or false", sentence, false, false, nullptr, {}, {}};
   entry.pattern   = std::make_shared<Patterns::Bool>();
   entry.complaint = [pattern = entry.pattern](const std::string &text) {
     return pattern->match(text) ? "" : "must be true or false.";
@@ -272,7 +272,7 @@ void Parameters::add_flag(const std::string &name, bool &value, const std::strin
 
 void Parameters::add_text(const std::string &name, std::string &value, const std::string &sentence)
 {
-  Entry entry{name, value, "", "", "text", sentence, false, nullptr, {}, {}};
+  Entry entry{name, value, "", "", "text", sentence, false, false, nullptr, {}, {}};
   entry.pattern   = std::make_shared<Patterns::Anything>();
   entry.complaint = [](const std::string &) { return ""; };
   entry.store     = [&value](const std::string &text) { return value = text; };
@@ -281,7 +281,7 @@ void Parameters::add_text(const std::string &name, std::string &value, const std
 
 void Parameters::add_list(const std::string &name, std::vector<std::string> &value, const std::string &sentence)
 {
-  Entry entry{name, join(value), "", "", "words separated by commas", sentence, false, nullptr, {}, {}};
+  Entry entry{name, join(value), "", "", "words separated by commas", sentence, false, false, nullptr, {}, {}};
   entry.pattern   = std::make_shared<Patterns::Anything>();
   entry.complaint = complaint_about_list;
   entry.store     = [&value](const std::string &text) {
@@ -294,7 +294,7 @@ void Parameters::add_list(const std::string &name, std::vector<std::string> &val
 void Parameters::add_choice(const std::string &name, std::string &value, const std::vector<std::string> &allowed,
                             const std::string &sentence)
 {
-  Entry entry{name, value, "", "", join(allowed), sentence, false, nullptr, {}, {}};
+  Entry entry{name, value, "", "", join(allowed), sentence, false, false, nullptr, {}, {}};
   entry.pattern   = std::make_shared<Patterns::Selection>(join(allowed, "|"));
   entry.complaint = [allowed](const std::string &text) { return complaint_about_choice(text, allowed); };
   entry.store     = [&value](const std::string &text) { return value = text; };
@@ -308,6 +308,18 @@ void Parameters::require(const std::string &name)
     if (entry.path == full)
       {
         entry.required = true;
+        return;
+      }
+  throw std::logic_error("The entry '" + full + "' is required but not declared.");
+}
+
+void Parameters::leave_out_if_unset(const std::string &name)
+{
+  const std::string full = path.empty() ? name : current_path() + "/" + name;
+  for (Entry &entry : entries)
+    if (entry.path == full)
+      {
+        entry.only_if_set = true;
         return;
       }
   throw std::logic_error("The entry '" + full + "' is required but not declared.");
@@ -485,7 +497,7 @@ std::string Parameters::echo() const
           continue;
         result += indent + "# " + normalise_blanks(entry.sentence) + unit_label(entry.unit) +
                   (entry.admissible.empty() ? "" : " (" + entry.admissible + ")") + "\n";
-        const bool missing = entry.required && entry.value.empty();
+        const bool missing = (entry.required && entry.value.empty()) || (entry.only_if_set && !is_set(entry.path));
         result +=
           indent + (missing ? "# set " : "set ") + name + " =" + (entry.value.empty() ? "" : " " + entry.value) + "\n";
       }

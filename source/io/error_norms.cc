@@ -97,8 +97,8 @@ std::map<std::string, double> traction_error(const Discretization<dim> &discreti
             largest = std::max(largest, known.norm());
           }
       }
-  return {{"cavity.traction.E_inf", relative(Utilities::MPI::max(error, discretization.communicator),
-                                             Utilities::MPI::max(largest, discretization.communicator))}};
+  return {{"boundary.traction.E_inf", relative(Utilities::MPI::max(error, discretization.communicator),
+                                               Utilities::MPI::max(largest, discretization.communicator))}};
 }
 
 template std::map<std::string, double> volume_errors(const Discretization<3> &, const MaterialOfBlock &,

@@ -25,6 +25,12 @@ void Log::open(const OutputDirectory &directory)
   early.clear();
 }
 
+void Log::to_file(const std::string &text)
+{
+  if (active && file.is_open())
+    file << text << '\n' << std::flush;
+}
+
 void Log::line(const std::string &text) { *this << text << '\n'; }
 
 void Log::write_lines()

@@ -27,60 +27,48 @@ void AbsorbingBoundary<dim>::finalize(const Parameters &parameters, const Geomet
 
 template <int dim>
 void AbsorbingBoundary<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &,
-                                    const LinearElastic       &material)
+                                    const MaterialOfBlock     &material)
 {
-  const double z_p = material.density * material.p_wave_speed(), z_s = material.density * material.s_wave_speed();
-
-  // integrals over the boundary, one symmetric block and one area per node; hanging nodes give theirs to the masters (row sums)
-  constexpr unsigned int  n_blocks = SymmetricTensor<2, dim>::n_independent_components;
-  std::vector<VectorType> block(n_blocks, discretization.new_scalar());
-  VectorType              area = discretization.new_scalar();
-  for_each_face_point(discretization, ids,
-                      [&](const unsigned int *nodes, const double *N, const Point<dim> &x, const Tensor<1, dim> &dA) {
-                        const double         dS = dA.norm();
-                        const Tensor<1, dim> outward =
-                          spherical() ? (x - Point<dim>(centre)) / (x - Point<dim>(centre)).norm() : dA / dS;
-                        SymmetricTensor<2, dim> D;
-                        for (unsigned int i = 0; i < dim; ++i)
-                          for (unsigned int j = i; j < dim; ++j)
-                            D[i][j] = dS * ((z_p - z_s) * outward[i] * outward[j] + (i == j ? z_s : 0.));
-                        for (unsigned int i = 0; i < discretization.nodes_per_cell(); ++i)
-                          {
-                            area.local_element(nodes[i]) += N[i] * dS;
-                            for (unsigned int k = 0; k < n_blocks; ++k)
-                              block[k].local_element(nodes[i]) += N[i] * D.access_raw_entry(k);
-                          }
-                      });
-  for (VectorType *vector : {&area})
-    {
-      discretization.hanging.template condense<1>(vector->begin());
-      vector->compress(VectorOperation::add);
-    }
-  for (VectorType &vector : block)
-    {
-      discretization.hanging.template condense<1>(vector.begin());
-      vector.compress(VectorOperation::add);
-    }
+  // per node: six entries of the dashpot block, spring and push of the spherical condition, cp dS, dS
+  constexpr unsigned int n_entries = SymmetricTensor<2, dim>::n_independent_components;
+  const auto             nodes     = integrate_on_boundary<n_entries + 4>(
+    discretization, ids, true, [&](const Point<dim> &x, const Tensor<1, dim> &dA, const types::material_id id) {
+      const LinearElastic     law = material(id);
+      const double            z_p = law.density * law.p_wave_speed(), z_s = law.density * law.s_wave_speed();
+      const double            dS = dA.norm(), b = (x - Point<dim>(centre)).norm();
+      const Tensor<1, dim>    n = spherical() ? (x - Point<dim>(centre)) / b : dA / dS;
+      SymmetricTensor<2, dim> D;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          D[i][j] = dS * ((z_p - z_s) * n[i] * n[j] + (i == j ? z_s : 0.));
+      std::array<double, n_entries + 4> q;
+      for (unsigned int k = 0; k < n_entries; ++k)
+        q[k] = D.access_raw_entry(k);
+      q[n_entries]     = dS * 4. * law.shear_modulus / b;
+      q[n_entries + 1] = dS * z_p * law.p_wave_speed() / b;
+      q[n_entries + 2] = dS * law.p_wave_speed();
+      q[n_entries + 3] = dS;
+      return q;
+    });
 
   dashpots.clear();
   springs.clear();
   if (memory.size() != discretization.n_nodes())
     memory = discretization.new_scalar();
-  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
-    if (area.local_element(node) > 0.)
-      {
-        SymmetricTensor<2, dim> D;
-        for (unsigned int k = 0; k < n_blocks; ++k)
-          D.access_raw_entry(k) = block[k].local_element(node);
-        dashpots.push_back({node, D});
-        if (spherical())
-          {
-            const Tensor<1, dim> from_centre = discretization.position(node) - Point<dim>(centre);
-            const double         b = from_centre.norm(), A = area.local_element(node), cp = material.p_wave_speed();
-            springs.push_back(
-              {node, from_centre / b, A * 4. * material.shear_modulus / b, A * material.density * cp * cp / b, cp / b});
-          }
-      }
+  for (const auto &[node, q] : nodes)
+    {
+      SymmetricTensor<2, dim> D;
+      for (unsigned int k = 0; k < n_entries; ++k)
+        D.access_raw_entry(k) = q[k];
+      dashpots.push_back({node, D});
+      if (spherical())
+        {
+          const Tensor<1, dim> from_centre = discretization.position(node) - Point<dim>(centre);
+          const double         b           = from_centre.norm();
+          springs.push_back(
+            {node, from_centre / b, q[n_entries], q[n_entries + 1], q[n_entries + 2] / (q[n_entries + 3] * b)});
+        }
+    }
 }
 
 template <int dim>
@@ -161,9 +149,19 @@ void Sponge<dim>::finalize(const Parameters &parameters, const Geometry<dim> &)
 
 template <int dim>
 void Sponge<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &mass,
-                         const LinearElastic &material)
+                         const MaterialOfBlock &material)
 {
-  const double strength = 3. * material.p_wave_speed() * std::log(1. / reflection) / (2. * (end - start));
+  // mean wave speed of the cells around a node
+  VectorType speed = discretization.new_scalar(), count = discretization.new_scalar();
+  for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
+    for (unsigned int i = 0; i < discretization.nodes_per_cell(); ++i)
+      {
+        const unsigned int node = discretization.cell_nodes(cell)[i];
+        speed.local_element(node) += material(discretization.cells()[cell]->material_id()).p_wave_speed();
+        count.local_element(node) += 1.;
+      }
+  speed.compress(VectorOperation::add);
+  count.compress(VectorOperation::add);
   dashpots.clear();
   for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
     {
@@ -171,8 +169,12 @@ void Sponge<dim>::reinit(const Discretization<dim> &discretization, const NodalM
       const double         distance = shape == "plane" ? x * direction : x.norm();
       const double         s        = std::min(1., (distance - start) / (end - start));
       if (s > 0. && mass.condensed.local_element(node) > 0.)
-        dashpots.push_back(
-          {node, strength * s * s * mass.condensed.local_element(node) * unit_symmetric_tensor<dim>()});
+        {
+          const double strength =
+            3. * speed.local_element(node) / count.local_element(node) * std::log(1. / reflection) / (end - start);
+          dashpots.push_back(
+            {node, strength * s * s * mass.condensed.local_element(node) * unit_symmetric_tensor<dim>()});
+        }
     }
 }
 

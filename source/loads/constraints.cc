@@ -57,81 +57,71 @@ void Constraints<dim>::finalize(const Parameters &parameters, const Geometry<dim
 
 namespace
 {
-/// Owned free nodes on the faces of @p ids with the sum of the outward area vectors around them.
+/// integral of n n^T dS around each owned free node of boundaries: its range are the normals of all faces at the node, on whatever
+/// process they are.
 template <int dim>
-std::map<unsigned int, Tensor<1, dim>> boundary_nodes(const Discretization<dim>             &discretization,
-                                                      const std::vector<types::boundary_id> &ids)
+std::vector<NodeValue<SymmetricTensor<2, dim>>> boundary_normals(const Discretization<dim>             &discretization,
+                                                                 const std::vector<types::boundary_id> &ids)
 {
-  std::map<unsigned int, Tensor<1, dim>> nodes;
-  if (ids.empty())
-    return nodes;
-  VectorType sum = discretization.new_vector(), touched = discretization.new_scalar();
-  for_each_face_point(discretization, ids,
-                      [&](const unsigned int *cell_nodes, const double *N, const Point<dim> &,
-                          const Tensor<1, dim> &dA) {
-                        for (unsigned int i = 0; i < discretization.nodes_per_cell(); ++i)
-                          if (N[i] > 1e-12) // trilinear and Gauss-Lobatto functions are not negative at these points
-                            {
-                              touched.local_element(cell_nodes[i]) += 1.;
-                              for (unsigned int c = 0; c < dim; ++c)
-                                sum.local_element(dim * cell_nodes[i] + c) += N[i] * dA[c];
-                            }
-                      });
-  sum.compress(VectorOperation::add);
-  touched.compress(VectorOperation::add);
-  const std::set<unsigned int> hanging(discretization.hanging.list().begin(), discretization.hanging.list().end());
-  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
-    if (touched.local_element(node) > 0. && hanging.count(node) == 0)
-      for (unsigned int c = 0; c < dim; ++c)
-        nodes[node][c] = sum.local_element(dim * node + c);
-  return nodes;
-}
-
-template <int dim>
-SymmetricTensor<2, dim> dyad(const Tensor<1, dim> &n)
-{
-  SymmetricTensor<2, dim> result;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      result[i][j] = n[i] * n[j];
+  constexpr unsigned int                          n_entries = SymmetricTensor<2, dim>::n_independent_components;
+  std::vector<NodeValue<SymmetricTensor<2, dim>>> result;
+  for (const auto &[node, q] :
+       integrate_on_boundary<n_entries + 1>(discretization, ids, false,
+                                            [](const Point<dim> &, const Tensor<1, dim> &dA, const types::material_id) {
+                                              std::array<double, n_entries + 1> values;
+                                              SymmetricTensor<2, dim>           dyad;
+                                              for (unsigned int i = 0; i < dim; ++i)
+                                                for (unsigned int j = i; j < dim; ++j)
+                                                  dyad[i][j] = dA[i] * dA[j] / dA.norm();
+                                              for (unsigned int k = 0; k < n_entries; ++k)
+                                                values[k] = dyad.access_raw_entry(k);
+                                              values[n_entries] = dA.norm();
+                                              return values;
+                                            }))
+    {
+      result.push_back({node, SymmetricTensor<2, dim>()});
+      for (unsigned int k = 0; k < n_entries; ++k)
+        result.back().value.access_raw_entry(k) = q[k] / q[n_entries];
+    }
   return result;
 }
 
-/// Constrain one more direction: P <- P - m m^T with m the part of n that is still free.
+/// Projector onto the directions that no face normal in @p normals (with trace 1) constrains.
 template <int dim>
-void remove_direction(SymmetricTensor<2, dim> &P, const Tensor<1, dim> &n)
+SymmetricTensor<2, dim> free_directions(const SymmetricTensor<2, dim> &normals)
 {
-  const Tensor<1, dim> m = P * n;
-  if (m.norm() > 1e-6 * n.norm())
-    P -= dyad(m / m.norm());
+  SymmetricTensor<2, dim> P = unit_symmetric_tensor<dim>();
+  // planes that meet at an angle give eigenvalues of the order of one, the noise of flat faces 1e-30
+  for (const auto &[value, m] : eigenvectors(normals))
+    if (value > 1e-8)
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          P[i][j] -= m[i] * m[j];
+  return P;
 }
 } // namespace
 
 template <int dim>
 void Constraints<dim>::reinit(const Discretization<dim> &discretization)
 {
-  std::map<unsigned int, SymmetricTensor<2, dim>> free_directions;
-  const auto projector_of = [&](const unsigned int node) -> SymmetricTensor<2, dim> & {
-    return free_directions.emplace(node, unit_symmetric_tensor<dim>()).first->second;
-  };
-  for (const auto id : symmetry)
-    for (const auto &[node, area] : boundary_nodes(discretization, {id}))
-      remove_direction(projector_of(node), area);
-  for (const auto &[node, area] : boundary_nodes(discretization, fixed))
-    projector_of(node) = SymmetricTensor<2, dim>();
+  std::map<unsigned int, SymmetricTensor<2, dim>> free;
+  for (const auto &[node, normals] : boundary_normals(discretization, symmetry))
+    free[node] = free_directions(normals);
+  for (const auto &[node, normals] : boundary_normals(discretization, fixed))
+    free[node] = SymmetricTensor<2, dim>();
 
   prescribed_nodes.clear();
   for (unsigned int b = 0; b < prescribed.size(); ++b)
-    for (const auto &[node, area] : boundary_nodes(discretization, prescribed[b]->ids))
+    for (const auto &[node, normals] : boundary_normals(discretization, prescribed[b]->ids))
       prescribed_nodes.push_back({node, b, Tensor<1, dim>()});
   exact_nodes.clear();
-  for (const auto &[node, area] : boundary_nodes(discretization, exact))
+  for (const auto &[node, normals] : boundary_normals(discretization, exact))
     {
-      free_directions.erase(node);
+      free.erase(node);
       exact_nodes.push_back({{node, 0, Tensor<1, dim>()}, discretization.position(node)});
     }
   projectors.clear();
-  for (const auto &[node, P] : free_directions)
+  for (const auto &[node, P] : free)
     projectors.push_back({node, P});
 }
 

@@ -40,12 +40,13 @@ void Pressure<dim>::finalize(const Parameters &parameters, const Geometry<dim> &
 }
 
 template <int dim>
-void Pressure<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &, const LinearElastic &)
+void Pressure<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &, const MaterialOfBlock &)
 {
   VectorType         sum = discretization.new_vector();
   const unsigned int n   = discretization.nodes_per_cell();
   for_each_face_point(discretization, ids,
-                      [&](const unsigned int *nodes, const double *N, const Point<dim> &, const Tensor<1, dim> &dA) {
+                      [&](const unsigned int *nodes, const double *N, const Point<dim> &, const Tensor<1, dim> &dA,
+                          const types::material_id) {
                         for (unsigned int i = 0; i < n; ++i)
                           for (unsigned int c = 0; c < dim; ++c)
                             sum.local_element(dim * nodes[i] + c) += N[i] * dA[c];
@@ -80,7 +81,7 @@ void Gravity<dim>::finalize(const Parameters &, const Geometry<dim> &)
 }
 
 template <int dim>
-void Gravity<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &mass, const LinearElastic &)
+void Gravity<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &mass, const MaterialOfBlock &)
 {
   weight.clear();
   for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)

@@ -2,12 +2,19 @@
 #include <arenite/materials/elastic_constants.h>
 
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 namespace Arenite
 {
+namespace
+{
+constexpr const char *constant_names[] = {"Young modulus", "Poisson ratio", "Bulk modulus", "Shear modulus",
+                                          "Lame lambda",   "P-wave speed",  "S-wave speed"};
+} // namespace
+
 void ElasticConstants::declare_parameters(Parameters &parameters)
 {
   path = parameters.current_path();
@@ -20,12 +27,13 @@ void ElasticConstants::declare_parameters(Parameters &parameters)
   parameters.add_quantity("Lame lambda", lame_lambda, "Pa", any_value, "lambda = K - 2G/3." + two);
   parameters.add_quantity("P-wave speed", p_wave_speed, "m/s", non_negative, "cp." + two);
   parameters.add_quantity("S-wave speed", s_wave_speed, "m/s", non_negative, "cs." + two);
+  for (const char *name : constant_names)
+    parameters.leave_out_if_unset(name);
 }
 
 LinearElastic ElasticConstants::finalize(const Parameters &parameters) const
 {
-  const std::vector<std::string> names = {"Young modulus", "Poisson ratio", "Bulk modulus", "Shear modulus",
-                                          "Lame lambda",   "P-wave speed",  "S-wave speed"};
+  const std::vector<std::string> names(std::begin(constant_names), std::end(constant_names));
   std::vector<std::string>       set;
   for (const auto &name : names)
     if (parameters.is_set(path + "/" + name))

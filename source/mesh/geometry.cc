@@ -79,6 +79,8 @@ public:
   void create(Triangulation<dim> &triangulation) const override
   {
     GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions, Point<dim>(lower), Point<dim>(upper), true);
+    for (const auto &cell : triangulation.active_cell_iterators())
+      cell->set_material_id(0); // the colours of the generator are octants
     if (distortion == 0.)
       return;
     const Tensor<1, dim> size = upper - lower;
@@ -129,9 +131,12 @@ public:
     GridGenerator::subdivided_hyper_rectangle(triangulation, {along, across, across}, Point<3>(),
                                               Point<3>(length, width, width), true);
     for (const auto &cell : triangulation.active_cell_iterators())
-      for (const auto &face : cell->face_iterators())
-        if (face->at_boundary() && face->boundary_id() > 2)
-          face->set_boundary_id(2);
+      {
+        cell->set_material_id(0);
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary() && face->boundary_id() > 2)
+            face->set_boundary_id(2);
+      }
   }
 
 private:

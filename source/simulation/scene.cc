@@ -2,6 +2,8 @@
 #include <arenite/loads/nodal_force.h>
 #include <arenite/simulation/scene.h>
 
+#include <map>
+
 namespace Arenite
 {
 template <int dim>
@@ -78,8 +80,15 @@ void Scene<dim>::finalize(Parameters &parameters)
 {
   mesh.finalize(parameters);
   element.finalize(parameters);
+  std::map<unsigned int, std::string> ids;
   for (Block &block : blocks)
-    block.material = block.constants.finalize(parameters);
+    {
+      block.material                = block.constants.finalize(parameters);
+      const auto [position, is_new] = ids.emplace(block.material_id, block.name);
+      if (!is_new)
+        parameters.refuse("Materials/" + block.name + "/Material id",
+                          "is the id of block '" + position->second + "' too");
+    }
   for (auto &load : loads)
     load->finalize(parameters, *mesh.geometry);
   constraints.finalize(parameters, *mesh.geometry);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iomanip>
+#include <set>
 #include <sstream>
 
 namespace Arenite
@@ -34,6 +35,7 @@ void Simulation<dim>::set_up()
   if (cells * std::pow(scene.element.degree, dim) * dim > 4.2e9)
     throw InputError("[Mesh] Refinement = " + std::to_string(scene.mesh.refinement) +
                      " gives more than 4.2e9 unknowns, the limit of 32-bit numbering. Use a coarser mesh.");
+  check_blocks();
   triangulation.refine_global(scene.mesh.refinement);
 
   std::vector<types::boundary_id> loaded;
@@ -47,8 +49,8 @@ void Simulation<dim>::set_up()
     blocks.push_back(
       make_elastic_force<dim>(scene.element, block.material,
                               scene.blocks.size() == 1 ? numbers::invalid_material_id : block.material_id));
-  dynamics =
-    std::make_unique<Dynamics<dim>>(discretization, std::move(blocks), std::move(scene.loads), scene.constraints);
+  dynamics = std::make_unique<Dynamics<dim>>(discretization, std::move(blocks), std::move(scene.loads),
+                                             scene.constraints, material_of_block());
   dynamics->reinit(state);
   scene.time_step.calibrate(*dynamics);
   scene.adaptor.schedule(*dynamics, 0.);
@@ -56,6 +58,36 @@ void Simulation<dim>::set_up()
   initial_mass              = dynamics->total_mass();
   record.setup_core_seconds = core_seconds(start);
   describe();
+}
+
+/// Every cell needs a block and every block a cell; a single block takes all cells.
+template <int dim>
+void Simulation<dim>::check_blocks() const
+{
+  if (scene.blocks.size() == 1)
+    return;
+  std::set<types::material_id> in_mesh;
+  for (const auto &cell : triangulation.active_cell_iterators()) // the coarse mesh, the same on all processes
+    if (!cell->is_artificial())
+      in_mesh.insert(cell->material_id());
+  std::vector<unsigned int> local(in_mesh.begin(), in_mesh.end());
+  for (const auto &ids : Utilities::MPI::all_gather(communicator, local))
+    in_mesh.insert(ids.begin(), ids.end());
+  std::string            ids;
+  std::set<unsigned int> with_block;
+  for (const auto id : in_mesh)
+    ids += (ids.empty() ? "" : ", ") + std::to_string(id);
+  for (const Block &block : scene.blocks)
+    {
+      with_block.insert(block.material_id);
+      if (in_mesh.count(block.material_id) == 0)
+        throw InputError("[Materials / " + block.name + "] Material id = " + std::to_string(block.material_id) +
+                         ": no cell of the mesh has it; the mesh has the ids " + ids + ".");
+    }
+  for (const auto id : in_mesh)
+    if (with_block.count(id) == 0)
+      throw InputError("[Materials]: the mesh has cells with the material ids " + ids +
+                       ", but no block has 'Material id = " + std::to_string(id) + "'.");
 }
 
 template <int dim>
@@ -77,6 +109,7 @@ void Simulation<dim>::set_initial_state()
     if (node < discretization.n_owned_nodes())
       for (unsigned int c = 0; c < dim; ++c)
         state.half_velocity.local_element(dim * node + c) = 0.;
+  make_consistent(discretization, state.displacement); // the energy of the start needs ghosts and hanging nodes
 }
 
 template <int dim>
@@ -95,11 +128,12 @@ void Simulation<dim>::describe() const
     {
       const LinearElastic &m = scene.blocks[b].material;
       text << "Block      " << scene.blocks[b].name << ": " << dynamics->blocks[b]->description()
-           << "; cp = " << m.p_wave_speed() << " m/s, cs = " << m.s_wave_speed() << " m/s, mass of the full body "
-           << initial_mass * scene.mesh.geometry->symmetry_factor() << " kg\n";
+           << "; cp = " << m.p_wave_speed() << " m/s, cs = " << m.s_wave_speed() << " m/s\n";
     }
   for (const auto &load : dynamics->loads)
     text << "Load       " << load->name << ": " << load->description() << '\n';
+  text << "Mass       " << initial_mass * scene.mesh.geometry->symmetry_factor()
+       << " kg of the full body; boundaries: " << join(scene.mesh.geometry->boundary_names()) << '\n';
   text << "Step       stable up to " << scene.time_step.limit() << " s (cell at " << scene.time_step.limiting_place()
        << "), about " << std::ceil(scene.end_time / scene.time_step.next(0., scene.end_time)) << " steps of "
        << scene.time_step.next(0., scene.end_time) << " s";
@@ -155,19 +189,16 @@ void Simulation<dim>::run(const OutputDirectory &directory)
   }
 
   const auto start = Clock::now();
-  while (true)
+  try
     {
-      const bool last = state.time >= scene.end_time * (1. - 1e-12);
-      dynamics->compute_force(state);
-      double dt = last ? state.dt_last : scene.time_step.next(state.time, scene.end_time);
-      dynamics->close_force(state, dt);
-      if (!last && scene.adaptor.due(state.time) && adapt(dt))
-        dt = scene.time_step.next(state.time, scene.end_time);
-      observe(directory, dt, last);
-      if (last)
-        break;
-      dynamics->advance(state, dt);
-      record.dof_steps += dim * double(discretization.n_nodes());
+      march(directory);
+    }
+  catch (const PhysicsAlarm &alarm) // keep what was recorded on the way there
+    {
+      scene.receivers.finish();
+      scene.statistics.finish();
+      log.to_file(alarm.what());
+      throw;
     }
   scene.receivers.finish();
   record.errors = scene.receivers.errors();
@@ -185,11 +216,39 @@ void Simulation<dim>::run(const OutputDirectory &directory)
   record.energy_error    = dynamics->balance.largest_error();
   record.symmetry_factor = scene.mesh.geometry->symmetry_factor();
   if (scene.exact_solution)
-    record.errors.merge(volume_errors(discretization, material_of_block(), state.displacement,
-                                      dynamics->velocity(state), *scene.exact_solution, state.time));
+    {
+      record.errors.merge(volume_errors(discretization, material_of_block(), state.displacement,
+                                        dynamics->velocity(state), *scene.exact_solution, state.time));
+      std::vector<types::boundary_id> loaded;
+      for (const auto &load : dynamics->loads)
+        for (const auto id : load->loaded_boundaries())
+          loaded.push_back(id);
+      if (!loaded.empty())
+        record.errors.merge(traction_error(discretization, material_of_block(), state.displacement, loaded,
+                                           *scene.exact_solution, state.time));
+    }
   if (n_adaptations > 0)
     log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
         << 100. * adaptation_seconds / record.core_seconds << " % of the run)\n";
+}
+
+template <int dim>
+void Simulation<dim>::march(const OutputDirectory &directory)
+{
+  while (true)
+    {
+      const bool last = state.time >= scene.end_time * (1. - 1e-12);
+      dynamics->compute_force(state);
+      double dt = last ? state.dt_last : scene.time_step.next(state.time, scene.end_time);
+      dynamics->close_force(state, dt);
+      if (!last && scene.adaptor.due(state.time) && adapt(dt))
+        dt = scene.time_step.next(state.time, scene.end_time);
+      observe(directory, dt, last);
+      if (last)
+        return;
+      step_power = dynamics->advance(state, dt);
+      record.dof_steps += dim * double(discretization.n_nodes());
+    }
 }
 
 template <int dim>
@@ -235,12 +294,19 @@ template <int dim>
 void Simulation<dim>::observe(const OutputDirectory &directory, const double dt, const bool last)
 {
   scene.receivers.record(state);
-  if (last || scene.statistics.is_due(state.step))
+  // Between the rows a cheap sign of trouble: the power of the last step on some process far above the energy there is.
+  bool due = last || scene.statistics.is_due(state.step);
+  if (!due && state.step % 10 == 0)
+    due = state.step <= 50 ||
+          Utilities::MPI::max(!(std::abs(step_power) * dt < 10. * known_energy) && step_power != 0. ? 1 : 0,
+                              communicator) > 0;
+  if (due)
     {
       const EnergyReport report = dynamics->report(state, dt);
       scene.statistics.add(report,
                            {state.step, dt, triangulation.n_global_active_cells(), dim * discretization.n_nodes()});
       watch(report);
+      known_energy = report.scale();
     }
   if (scene.pictures.enabled() && (last || scene.pictures.is_due(state.time, dt)))
     write_picture(directory);

@@ -8,16 +8,21 @@ using namespace dealii;
 
 template <int dim>
 Dynamics<dim>::Dynamics(Discretization<dim> &discretization, std::vector<std::unique_ptr<InternalForce<dim>>> blocks,
-                        std::vector<std::unique_ptr<Load<dim>>> loads, Constraints<dim> &constraints)
+                        std::vector<std::unique_ptr<Load<dim>>> loads, Constraints<dim> &constraints,
+                        const MaterialOfBlock &material_of_block)
   : discretization(discretization)
   , blocks(std::move(blocks))
   , loads(std::move(loads))
   , constraints(constraints)
+  , material(material_of_block)
 {
+  if (!material)
+    material = [this](types::material_id) { return this->blocks.front()->material(); };
   std::vector<std::string> names;
   for (const auto &load : this->loads)
     names.push_back(load->name);
   names.push_back("prescribed motion");
+  names.push_back("hourglass viscosity");
   balance.set_names(names);
 }
 
@@ -42,7 +47,7 @@ void Dynamics<dim>::reinit(State<dim> &state)
         state.inverse_mass.local_element(dim * node + c) = m > 0. ? 1. / m : 0.;
       }
   for (auto &load : loads)
-    load->reinit(discretization, nodal, blocks.front()->material());
+    load->reinit(discretization, nodal, material);
   constraints.reinit(discretization);
   damping.reinit(loads, constraints);
   this->mass = std::move(nodal.condensed);
@@ -66,6 +71,12 @@ void Dynamics<dim>::compute_internal_force(State<dim> &state, const bool overlap
       block->add(f, state, part);
   };
 
+  for (const auto &block : blocks)
+    if (block->uses_velocity())
+      {
+        make_consistent(discretization, state.half_velocity);
+        break;
+      }
   hanging.interpolate<dim>(u.begin(), 0, hanging.n_local);
   u.update_ghost_values_start();
   if (overlap)
@@ -106,6 +117,9 @@ void Dynamics<dim>::close_force(State<dim> &state, const double dt, const bool b
   if (!book_first_half)
     return;
   book_work(state, 0.5 * state.dt_last);
+  // known for v_{n-1/2} only: the ledger closes to first order in the step here, not to round-off
+  for (const auto &block : blocks)
+    balance.add_work(loads.size() + 1, -mean * block->take_viscous_power());
   if (mean != state.dt_last)
     balance.add_step_change(0.5 * (mean - state.dt_last) * power(state));
 }
@@ -127,7 +141,7 @@ double Dynamics<dim>::total_energy(const State<dim> &state, const double dt) con
 }
 
 template <int dim>
-void Dynamics<dim>::advance(State<dim> &state, const double dt)
+double Dynamics<dim>::advance(State<dim> &state, const double dt)
 {
   const double mean        = 0.5 * (state.dt_last + dt);
   const double power_after = central_difference(state, dt, mean);
@@ -135,6 +149,7 @@ void Dynamics<dim>::advance(State<dim> &state, const double dt)
   balance.add_step_change(0.5 * (mean - dt) * power_after);
   for (const auto &load : loads)
     load->finish_step(state.half_velocity, dt);
+  return power_after;
 }
 
 template <int dim>

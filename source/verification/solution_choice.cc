@@ -36,6 +36,8 @@ std::shared_ptr<const ExactSolution<dim>> SolutionChoice<dim>::make(const Parame
   const std::string entry = "Verification/Exact solution";
   if ((type == "spherical cavity" || type == "plane wave") && !pressure)
     parameters.refuse(entry, "needs a load of type 'pressure' in the scene");
+  if ((type == "spherical cavity" || type == "manufactured shell") && inner_radius == 0.)
+    parameters.refuse("Verification/Inner radius", "must be positive for '" + type + "'");
   if (type == "spherical cavity")
     return std::make_shared<SphericalCavity<dim>>(material, inner_radius, pressure);
   if (type == "plane wave")

@@ -128,12 +128,14 @@ BOOST_AUTO_TEST_CASE(lysmer_absorbs_plane_waves, *label("parallel"))
       }
 }
 
-// A sponge in front of a rigid end returns about its target (1e-3 by amplitude, and what its start reflects), the bare end all.
-BOOST_AUTO_TEST_CASE(sponge_weakens_waves)
+// A short wavelet (Ricker, nothing is displaced for good) through a sponge of 1 m and back from a rigid end: what returns is the
+// target amplitude; reflection at the start of the layer adds 2 % of it.
+BOOST_AUTO_TEST_CASE(sponge_reaches_its_target)
 {
+  constexpr double centre = 0.6, width = 0.03;
   for (const bool sponge : {false, true})
     {
-      Body body(element(4), bar(30));
+      Body body(element(4), bar(60));
       constrain(body, p_wave_sides + "\nset Fixed boundaries = x max");
       Loads loads;
       if (sponge)
@@ -142,14 +144,49 @@ BOOST_AUTO_TEST_CASE(sponge_weakens_waves)
           set Direction         = 2, 0, 0
           set Start             = 1
           set End               = 2
-          set Target reflection = 1e-3)"));
+          set Target reflection = 1e-2)"));
       body.assemble(std::move(loads));
-      const double R = reflection(body, 0, body.law.p_wave_speed());
+      const double c = body.law.p_wave_speed();
+      body.set(body.state.half_velocity, [&](const Point<3> &x) {
+        const double s = (x[0] - centre) / width;
+        return Tensor<1, 3>({(1. - s * s) * std::exp(-0.5 * s * s), 0., 0.});
+      });
+      body.set(body.state.displacement, [&](const Point<3> &x) {
+        const double s = (x[0] - centre) / width;
+        return Tensor<1, 3>({-width / c * s * std::exp(-0.5 * s * s), 0., 0.});
+      });
+      run(body, 0.5 * stable_step(body), 2.8 / c);
+      const double R = largest(body.state.half_velocity);
       BOOST_TEST_MESSAGE((sponge ? "sponge: " : "rigid end: ") << R);
-      if (sponge)
-        BOOST_TEST(R < 5e-3);
-      else
-        BOOST_TEST(R == 1., tolerance(1e-2));
+      BOOST_TEST(R == (sponge ? 1e-2 : 1.), tolerance(0.05));
+    }
+}
+
+// A boundary name may stand for several planes, like the sides of a bar: an edge between two of them moves along itself only.
+BOOST_AUTO_TEST_CASE(symmetry_planes_that_share_a_name)
+{
+  Body body(element(1), [](auto &t) {
+    GridGenerator::subdivided_hyper_rectangle(t, {3u, 2u, 2u}, Point<3>(), Point<3>(3., 1., 1.), true);
+    for (const auto &cell : t.active_cell_iterators())
+      for (const auto &face : cell->face_iterators())
+        if (face->at_boundary() && face->boundary_id() > 2)
+          face->set_boundary_id(2);
+  });
+  body.constraints.set_symmetry({2});
+  body.assemble();
+  for (unsigned int i = 0; i < body.state.half_velocity.locally_owned_size(); ++i)
+    body.state.half_velocity.local_element(i) = 1. + i % 3;
+  body.constraints.project(body.state.half_velocity);
+  for (unsigned int node = 0; node < body.discretization.n_owned_nodes(); ++node)
+    {
+      const Point<3> x = body.discretization.position(node);
+      for (const unsigned int c : {1u, 2u})
+        {
+          const bool   on_plane = x[c] < 1e-9 || x[c] > 1. - 1e-9;
+          const double v        = body.state.half_velocity.local_element(3 * node + c);
+          BOOST_TEST(std::abs(v - (on_plane ? 0. : 1. + c)) < 1e-12, "component " << c << " at " << x << ": " << v);
+        }
+      BOOST_TEST(body.state.half_velocity.local_element(3 * node) == 1., tolerance(1e-12));
     }
 }
 
@@ -339,7 +376,8 @@ BOOST_AUTO_TEST_CASE(area_of_the_cavity)
           Body         body(element(degree), [&](auto &t) { shell_octant(t, k + 1, false); });
           Tensor<1, 3> area;
           for_each_face_point(body.discretization, {0},
-                              [&](const unsigned int *, const double *, const Point<3> &, const Tensor<1, 3> &dA) {
+                              [&](const unsigned int *, const double *, const Point<3> &, const Tensor<1, 3> &dA,
+                                  types::material_id) {
                                 area -= dA; // outward of the solid is towards the centre
                               });
           error[k] = 0.;

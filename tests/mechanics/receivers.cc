@@ -636,8 +636,8 @@ BOOST_AUTO_TEST_CASE(order_of_volume_errors, *boost::unit_test::label("parallel"
       BOOST_TEST(std::abs(order("volume.displacement.E_x") - (degree + 1)) < 0.3);
       BOOST_TEST(std::abs(order("volume.velocity.E_x") - (degree + 1)) < 0.3);
       BOOST_TEST(std::abs(order("volume.stress.E_x") - degree) < 0.3);
-      BOOST_TEST(order("cavity.traction.E_inf") > degree - 0.4);
-      BOOST_TEST(errors[0].at("cavity.traction.E_inf") < 1.);
+      BOOST_TEST(order("boundary.traction.E_inf") > degree - 0.4);
+      BOOST_TEST(errors[0].at("boundary.traction.E_inf") < 1.);
     }
 }
 

@@ -7,7 +7,7 @@ Comment lines of the scene say what must hold:
     # CHECK: errors["array.displacement.E_t"] < 1e-2   must be true in every run (Python)
     # SAME: 1e-12 errors["array.displacement.E_t"]     equal in all runs up to this relative difference; a number or text
     # SAME: 1e-6 receivers-array.csv                 the same for a table, column by column relative to its largest value
-    # ARGS: --set "End time=1e-3"                    more arguments
+    # ARGS: --set "End time=1e-3"                    more arguments; {folder} is the folder of the scene
     # EXIT: 0                                        exit code
 
 CHECK and SAME know: run (the contents of run.json), errors (run["errors"]), log (log.txt as text), column("file.csv",
@@ -88,7 +88,8 @@ def main(arenite, scene):
     with tempfile.TemporaryDirectory(prefix="arenite-") as folder:
         for i, ranks in enumerate(int(r) for r in wanted.get("RANKS", ["1"])[0].split()):
             out = Path(folder) / f"output-{i}"
-            arguments = ["run", scene, "--output", out] + [a for line in wanted.get("ARGS", []) for a in shlex.split(line)]
+            arguments = ["run", scene, "--output", out] + [
+                a.replace("{folder}", str(scene.parent)) for line in wanted.get("ARGS", []) for a in shlex.split(line)]
             done = subprocess.run(command([arenite] + arguments, ranks), cwd=folder, stdin=subprocess.DEVNULL,
                                   capture_output=True, text=True, errors="replace")
             print(f"--- {ranks} rank{'s' * (ranks > 1)}")

@@ -17,7 +17,8 @@ namespace Arenite
 /// adapted again before a P wave has crossed the buffer, so that the front never meets a coarse cell.
 ///
 /// Displacement, velocity, positions and boundary scalars are interpolated. Positions are a field like the others: refined cells
-/// keep the polynomial shape of their parents, and mass and fields are transferred exactly under refinement.
+/// keep the polynomial shape of their parents, fields are transferred exactly under refinement, and the mass changes only as far as
+/// the quadrature of curved cells does (measured: 4e-5 at degree 2 on a coarse shell, 6e-8 at degree 3).
 template <int dim>
 class MeshAdaptor
 {
@@ -46,11 +47,9 @@ public:
 
   unsigned int max_passes() const { return levels; }
 
-  /// Last indicator, for pictures.
-  dealii::Vector<float> indicator;
-
 private:
   void grow(Triangulation &, std::vector<bool> &marked) const;
+  void check_size(const Triangulation &, double time) const;
   void flag(Triangulation &, const std::vector<bool> &front, const std::vector<bool> &quiet) const;
 
   std::string                               type = "wave front";

@@ -109,6 +109,9 @@ public:
   /// parse() refuses a scene that does not set this entry of the current section; call it after the add_....
   void require(const std::string &name);
 
+  /// An entry of which a scene sets some but not all, such as elastic constants: echo() leaves it out when it is not set.
+  void leave_out_if_unset(const std::string &name);
+
   /// Strict pass: fills the bound members, or raises one InputError that lists every unknown, malformed, out-of-range
   /// or missing entry with file:line, value, rule and the nearest known name, and leaves the members alone.
   void parse();
@@ -137,7 +140,7 @@ private:
   struct Entry
   {
     std::string path, default_value, value, unit, admissible, sentence;
-    bool        required = false;
+    bool        required = false, only_if_set = false;
 
     std::shared_ptr<const dealii::Patterns::PatternBase> pattern;
     /// Rule that a text breaks, or nothing; the text may be anything.

@@ -24,7 +24,7 @@ std::map<std::string, double> volume_errors(const Discretization<dim> &, const M
 ///   E_inf = max |sigma_h n - sigma n| / max |sigma|
 ///
 /// over (p+2)^(dim-1) Gauss points per face, with the normal n of the polynomial geometry. Collective.
-/// @return "cavity.traction.E_inf"
+/// @return "boundary.traction.E_inf"
 template <int dim>
 std::map<std::string, double> traction_error(const Discretization<dim> &, const MaterialOfBlock &,
                                              const VectorType                              &displacement,

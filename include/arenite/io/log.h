@@ -24,6 +24,9 @@ public:
   /// Start log.txt in a directory that has been created. Collective only in that everybody calls it.
   void open(const OutputDirectory &);
 
+  /// A line for log.txt alone: what the user reads on the error stream.
+  void to_file(const std::string &text);
+
   /// One line; no end of line in @p text.
   void line(const std::string &text = "");
 

@@ -27,13 +27,13 @@ public:
     , condition(condition)
   {}
 
-  void                      declare_parameters(Parameters &) override;
-  void                      finalize(const Parameters &, const Geometry<dim> &) override;
-  void                      reinit(const Discretization<dim> &, const NodalMass &mass, const LinearElastic &) override;
-  void                      add(VectorType &force, const State<dim> &) override;
-  double                    power(const VectorType &half_velocity) const override;
-  void                      finish_step(const VectorType &half_velocity, double dt) override;
-  std::string               description() const override;
+  void        declare_parameters(Parameters &) override;
+  void        finalize(const Parameters &, const Geometry<dim> &) override;
+  void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
+  void        add(VectorType &force, const State<dim> &) override;
+  double      power(const VectorType &half_velocity) const override;
+  void        finish_step(const VectorType &half_velocity, double dt) override;
+  std::string description() const override;
   const DampingBlocks<dim> *damping() const override { return &dashpots; }
   const VectorType         *nodal_state() const override { return spherical() ? &memory : nullptr; }
   void                      set_nodal_state(const VectorType &) override;
@@ -62,18 +62,20 @@ private:
 
 /// Layer with damping that grows into it, D = rate(x) m: waves of every kind and angle die out slowly instead of reflecting.
 ///
-///   rate = (n + 1) cp ln(1/R) / (2 L) s^n,  s in [0,1] the depth into the layer of thickness L, R the target amplitude that
-/// returns from a rigid end, n = 2.
+///   rate = (n + 1) cp ln(1/R) / L s^n,   n = 2,
+///
+/// s in [0,1] the depth into the layer of thickness L. A P wave decays like exp(-integral rate/(2 cp) ds) on each way, so that
+/// the part R of its amplitude returns from a rigid or free end.
 template <int dim>
 class Sponge : public Load<dim>
 {
 public:
-  void                      declare_parameters(Parameters &) override;
-  void                      finalize(const Parameters &, const Geometry<dim> &) override;
-  void                      reinit(const Discretization<dim> &, const NodalMass &mass, const LinearElastic &) override;
-  void                      add(VectorType &, const State<dim> &) override {}
-  double                    power(const VectorType &) const override { return 0.; }
-  std::string               description() const override { return "sponge layer"; }
+  void        declare_parameters(Parameters &) override;
+  void        finalize(const Parameters &, const Geometry<dim> &) override;
+  void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
+  void        add(VectorType &, const State<dim> &) override {}
+  double      power(const VectorType &) const override { return 0.; }
+  std::string description() const override { return "sponge layer"; }
   const DampingBlocks<dim> *damping() const override { return &dashpots; }
 
 private:

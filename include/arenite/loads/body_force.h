@@ -17,7 +17,7 @@ public:
   }
 
   void        declare_parameters(Parameters &) override {}
-  void        reinit(const Discretization<dim> &, const NodalMass &mass, const LinearElastic &) override;
+  void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override;
   std::string description() const override { return "body force of the manufactured solution"; }

@@ -5,15 +5,17 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace Arenite
 {
 /// Quadrature over the faces of named boundaries, on the geometry of the node positions.
 ///
-/// visit(nodes, N, x, dA) is called for each quadrature point of each owned face: local node numbers of the cell (lexicographic),
+/// visit(nodes, N, x, dA, material id of the cell) is called for each quadrature point of each owned face: local node numbers of the cell (lexicographic),
 /// values of their shape functions, position, and the outward area vector n dA [m^2]. Spectral elements use the
-/// Gauss-Lobatto points of the face (the rule of the cell, so that constant stress is in equilibrium to round-off), trilinear
+/// Gauss-Lobatto points of the face (the rule of the cell; on cells with straight edges constant stress is then in equilibrium to round-off), trilinear
 /// ones 2x2 Gauss points.
 template <int dim, typename Visit>
 void for_each_face_point(const Discretization<dim> &discretization, const std::vector<dealii::types::boundary_id> &ids,
@@ -61,7 +63,8 @@ void for_each_face_point(const Discretization<dim> &discretization, const std::v
             Tensor<1, dim> unit_normal;
             unit_normal[f / 2]      = f % 2 ? 1. : -1.;
             const Tensor<1, dim> dA = rule.weight(q) * determinant(J) * (transpose(invert(J)) * unit_normal);
-            visit(discretization.cell_nodes(cell), &value[f][q * n], at, dA);
+            visit(discretization.cell_nodes(cell), &value[f][q * n], at, dA,
+                  discretization.cells()[cell]->material_id());
           }
       }
 }
@@ -73,4 +76,47 @@ struct NodeValue
   unsigned int node;
   Value        value;
 };
+
+/// integral of N_i q dS over boundaries, for K numbers q = integrand(x, dA, material id) that carry dS already: one entry per owned
+/// node where the last of them is positive. Hanging nodes give theirs to their masters (row sums) or, without @p condense,
+/// are left out.
+template <std::size_t K, int dim, typename Integrand>
+std::vector<NodeValue<std::array<double, K>>> integrate_on_boundary(const Discretization<dim> &discretization,
+                                                                    const std::vector<dealii::types::boundary_id> &ids,
+                                                                    const bool condense, const Integrand &integrand)
+{
+  std::vector<NodeValue<std::array<double, K>>> result;
+  if (ids.empty())
+    return result;
+  std::vector<VectorType> sum;
+  for (std::size_t k = 0; k < K; ++k)
+    sum.emplace_back(discretization.node_partitioner);
+  for_each_face_point(discretization, ids,
+                      [&](const unsigned int *nodes, const double *N, const dealii::Point<dim> &x,
+                          const dealii::Tensor<1, dim> &dA, const dealii::types::material_id id) {
+                        const std::array<double, K> q = integrand(x, dA, id);
+                        for (unsigned int i = 0; i < discretization.nodes_per_cell(); ++i)
+                          if (std::abs(N[i]) > 1e-12)
+                            for (std::size_t k = 0; k < K; ++k)
+                              sum[k].local_element(nodes[i]) += N[i] * q[k];
+                      });
+  for (VectorType &vector : sum)
+    {
+      if (condense)
+        discretization.hanging.template condense<1>(vector.begin());
+      vector.compress(dealii::VectorOperation::add);
+      if (!condense)
+        for (const unsigned int node : discretization.hanging.list())
+          if (node < discretization.n_owned_nodes())
+            vector.local_element(node) = 0.;
+    }
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    if (sum[K - 1].local_element(node) > 0.)
+      {
+        result.push_back({node, {}});
+        for (std::size_t k = 0; k < K; ++k)
+          result.back().value[k] = sum[k].local_element(node);
+      }
+  return result;
+}
 } // namespace Arenite

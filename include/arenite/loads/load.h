@@ -3,7 +3,7 @@
 #include <arenite/base/registry.h>
 #include <arenite/base/time_history.h>
 #include <arenite/loads/boundary_faces.h>
-#include <arenite/materials/linear_elastic.h>
+#include <arenite/mechanics/cell_fields.h>
 #include <arenite/mechanics/state.h>
 #include <arenite/mesh/geometry.h>
 
@@ -36,7 +36,7 @@ public:
   virtual void finalize(const Parameters &, const Geometry<dim> &) {}
 
   /// Rebuild nodal lists after a change of the mesh.
-  virtual void reinit(const Discretization<dim> &, const NodalMass &mass, const LinearElastic &material) = 0;
+  virtual void reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &material) = 0;
 
   /// force += f(t_n); also remembers f for record_work().
   virtual void add(VectorType &force, const State<dim> &) = 0;

@@ -37,7 +37,7 @@ class Pressure : public Load<dim>
 public:
   void        declare_parameters(Parameters &) override;
   void        finalize(const Parameters &, const Geometry<dim> &) override;
-  void        reinit(const Discretization<dim> &, const NodalMass &mass, const LinearElastic &) override;
+  void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override { return power_of(area, factor, half_velocity); }
   std::string description() const override;
@@ -61,7 +61,7 @@ class Gravity : public Load<dim>
 public:
   void        declare_parameters(Parameters &) override;
   void        finalize(const Parameters &, const Geometry<dim> &) override;
-  void        reinit(const Discretization<dim> &, const NodalMass &mass, const LinearElastic &) override;
+  void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override { return power_of(weight, factor, half_velocity); }
   std::string description() const override;

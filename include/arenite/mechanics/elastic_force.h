@@ -8,6 +8,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <cmath>
+#include <utility>
 
 namespace Arenite
 {
@@ -109,6 +110,9 @@ public:
       }
   }
 
+  bool   uses_velocity() const override { return viscous; }
+  double take_viscous_power() const override { return std::exchange(viscous_power, 0.); }
+
   const LinearElastic &material() const override { return law; }
 
   std::string description() const override
@@ -145,18 +149,21 @@ private:
     for (unsigned int b = begin; b < end; ++b)
       {
         Number                x[dim][n_nodes], u[dim][n_nodes], v[dim][n_nodes];
-        ElementEnergy<Number> unused;
+        ElementEnergy<Number> energy;
         gather<dim, W, n_nodes>(X, entries(b), x);
         gather<dim, W, n_nodes>(U, entries(b), u);
         if constexpr (with_viscosity)
           gather<dim, W, n_nodes>(V, entries(b), v);
-        element_force<false, with_viscosity>(x, u, v, unused);
+        element_force<false, with_viscosity>(x, u, v, energy);
+        if constexpr (with_viscosity)
+          for (int l = 0; l < batches.active[b]; ++l)
+            viscous_power += lane(energy.viscous, l);
         scatter_add<dim, W, n_nodes>(F, entries(b), u, batches.active[b]);
       }
   }
 
   /// Largest eigenvalue of M^-1 K of the element itself. The start vector has a part in every mode and does not depend on
-  /// ranks; 60 iterations leave the Rayleigh quotient below the eigenvalue by 1e-3 or less (tests/mechanics/stable_step.cc).
+  /// ranks; 60 iterations leave the Rayleigh quotient at most 1 % below the eigenvalue (tests/mechanics/stable_step.cc).
   Number power_iteration(const Number (&x)[dim][n_nodes]) const
   {
     Number volume[n_nodes], y[dim][n_nodes], v[dim][n_nodes], lambda = Number(0.);
@@ -200,6 +207,7 @@ private:
   bool                             viscous   = false;
   const VectorType                *positions = nullptr;
   CellBatches<dim, W>              batches;
+  mutable double                   viscous_power = 0.;
 };
 
 template <int dim, int W>

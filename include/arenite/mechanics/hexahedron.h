@@ -324,7 +324,11 @@ struct OnePointHexahedron
         const V c = V(0.25 * moduli.hourglass_viscosity) * square_root(sum * V(1. / 12.));
         for (int i = 0; i < 3; ++i)
           for (int a = 0; a < 4; ++a)
-            Q[i][a] = c * hourglass(v, G, i, a);
+            {
+              const V rate = hourglass(v, G, i, a);
+              Q[i][a]      = c * rate;
+              energy.viscous += Q[i][a] * rate;
+            }
       }
     else
       {

@@ -56,6 +56,12 @@ public:
   /// Energies from the points, by a path that does not use the nodal forces.
   virtual BlockEnergy energy(const State<dim> &) const = 0;
 
+  /// True if the forces depend on state.half_velocity, which then needs valid ghosts and hanging nodes.
+  virtual bool uses_velocity() const { return false; }
+
+  /// Power that viscous hourglass forces took out of the cells in the calls of add() since the last call of this function [W].
+  virtual double take_viscous_power() const { return 0.; }
+
   /// mass += integral of rho N_i, one entry per node.
   virtual void add_mass(VectorType &mass) const = 0;
 
@@ -71,7 +77,7 @@ public:
   virtual std::string description() const = 0;
 };
 
-/// Fused small-strain linear elasticity: no stress and no history is stored. @p cell_filter: material id of the block, or all.
+/// Fused small-strain linear elasticity: no stress and no history is stored. @p block: material id of its cells; by default all cells.
 template <int dim, int W = native_lanes>
 std::unique_ptr<InternalForce<dim>> make_elastic_force(
   const ElementChoice &, const LinearElastic &,

@@ -34,7 +34,9 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
+  void   check_blocks() const;
   void   set_initial_state();
+  void   march(const OutputDirectory &);
   void   describe() const;
   bool   adapt(double dt);
   void   observe(const OutputDirectory &, double dt, bool last);
@@ -51,6 +53,7 @@ private:
   std::unique_ptr<Dynamics<dim>>                    dynamics;
   State<dim>                                        state;
   double                                            initial_mass = 0., output_seconds = 0., adaptation_seconds = 0.;
+  double                                            step_power = 0., known_energy = 0.;
   unsigned int                                      n_adaptations = 0;
 };
 } // namespace Arenite

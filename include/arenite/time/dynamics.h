@@ -18,7 +18,8 @@ class Dynamics
 {
 public:
   Dynamics(Discretization<dim> &discretization, std::vector<std::unique_ptr<InternalForce<dim>>> blocks,
-           std::vector<std::unique_ptr<Load<dim>>> loads, Constraints<dim> &constraints);
+           std::vector<std::unique_ptr<Load<dim>>> loads, Constraints<dim> &constraints,
+           const MaterialOfBlock &material_of_block = {});
 
   /// Rebuild everything that depends on the mesh; sizes the state, keeps its time.
   void reinit(State<dim> &);
@@ -39,8 +40,8 @@ public:
   /// Kinetic and stored energy at t_n, summed over processes, without an entry in the balance. Collective.
   double total_energy(const State<dim> &, double dt) const;
 
-  /// u_{n+1}, v_{n+1/2}; consumes the force.
-  void advance(State<dim> &, double dt);
+  /// u_{n+1}, v_{n+1/2}; consumes the force. @return f_n . v_{n+1/2} of this process [W].
+  double advance(State<dim> &, double dt);
 
   /// Sum of the blocks' energies on this process.
   BlockEnergy stored_energy(const State<dim> &) const;
@@ -62,6 +63,7 @@ public:
 private:
   void book_work(const State<dim> &, double half_step);
 
+  MaterialOfBlock  material;
   NodeDamping<dim> damping;
 };
 } // namespace Arenite
