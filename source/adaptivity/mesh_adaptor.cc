@@ -141,11 +141,15 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
   kind->evaluate(discretization, state, dynamics.velocity(state), dynamics.blocks.front()->material(), indicator);
   const float largest = Utilities::MPI::max(cells.empty() ? 0.f : indicator.linfty_norm(), discretization.communicator);
 
+  // a wave that has left must not hand the fine cells over to what is left behind it
+  peak                  = std::max(peak, largest);
+  const float reference = std::max(largest, 0.02f * peak);
+
   std::vector<bool> front(triangulation.n_active_cells(), false), quiet(front);
   for (unsigned int cell = 0; cell < cells.size(); ++cell)
     {
-      front[cells[cell]->active_cell_index()] = indicator[cell] > refine_above * largest;
-      quiet[cells[cell]->active_cell_index()] = indicator[cell] <= coarsen_below * largest;
+      front[cells[cell]->active_cell_index()] = indicator[cell] > refine_above * reference;
+      quiet[cells[cell]->active_cell_index()] = indicator[cell] <= coarsen_below * reference;
     }
   grow(triangulation, front);
   flag(triangulation, front, quiet);
@@ -226,7 +230,6 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
 
   time_step.ratio.reinit(triangulation.n_active_cells());
   ratios.unpack(time_step.ratio);
-  time_step.update(dynamics);
 }
 
 template <int dim>

@@ -1,5 +1,6 @@
 #include <arenite/loads/absorbing.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Arenite
@@ -53,8 +54,8 @@ void AbsorbingBoundary<dim>::reinit(const Discretization<dim> &discretization, c
 
   dashpots.clear();
   springs.clear();
-  if (memory.size() != discretization.n_nodes())
-    memory = discretization.new_scalar();
+  if (memory.get_partitioner() != discretization.node_partitioner) // a new mesh, whose values come by set_nodal_state()
+    memory.reinit(discretization.node_partitioner);
   for (const auto &[node, q] : nodes)
     {
       SymmetricTensor<2, dim> D;
@@ -112,7 +113,8 @@ void AbsorbingBoundary<dim>::finish_step(const VectorType &half_velocity, const 
 template <int dim>
 void AbsorbingBoundary<dim>::set_nodal_state(const VectorType &values)
 {
-  memory = values;
+  memory.reinit(values.get_partitioner());
+  std::copy_n(values.begin(), values.locally_owned_size(), memory.begin());
 }
 
 template <int dim>

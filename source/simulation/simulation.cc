@@ -200,12 +200,12 @@ void Simulation<dim>::run(const OutputDirectory &directory)
       log.to_file(alarm.what());
       throw;
     }
-  scene.receivers.finish();
+  record.core_seconds        = core_seconds(start) - output_seconds;
+  record.output_core_seconds = output_seconds;
+  scene.receivers.finish(); // writes, and evaluates the exact solution: not part of the computation
   record.errors = scene.receivers.errors();
   record.values = scene.receivers.norms();
   scene.statistics.finish();
-  record.core_seconds        = core_seconds(start) - output_seconds;
-  record.output_core_seconds = output_seconds;
 
   record.element         = scene.element.type;
   record.degree          = scene.element.degree;
@@ -268,10 +268,11 @@ bool Simulation<dim>::adapt(const double dt_old)
       changed = true;
       scene.adaptor.execute(triangulation, *dynamics, state, scene.time_step);
       dynamics->compute_force(state);
-      dynamics->close_force(state, scene.time_step.next(state.time, scene.end_time), false);
     }
   if (changed)
     {
+      scene.time_step.update(*dynamics);
+      dynamics->close_force(state, scene.time_step.next(state.time, scene.end_time), false);
       ++n_adaptations;
       const double dt = scene.time_step.next(state.time, scene.end_time);
       dynamics->balance.add_adaptation(dynamics->total_energy(state, dt) - energy_before);
@@ -339,9 +340,11 @@ void Simulation<dim>::watch(const EnergyReport &report)
   std::ostringstream reason;
   if (!finite)
     reason << "the state is not a number any more";
-  else if (report.kinetic < -0.02 * stored && stored > 1e-3 * input)
-    reason << "the kinetic energy is negative (" << report.kinetic << " J beside " << stored
-           << " J of strain energy), the sign of a step above the stability limit";
+  // the leapfrog kinetic energy of a mode near the limit may be negative, but below it the sum never is, and the strain energy stays
+  // below the sum over 1 - (omega dt/2)^2
+  else if (stored > 1e3 * input && input > 0.)
+    reason << "the strain energy grew to " << stored << " J from " << input
+           << " J of work, the sign of a step above the stability limit";
   else if (report.kinetic + stored > 10. * input && input > 0.)
     reason << "the energy grew to " << report.kinetic + stored << " J from " << input << " J of work";
   else if (std::abs(report.imbalance()) > 0.1 * report.scale() && report.scale() > 0.)

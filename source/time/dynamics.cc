@@ -115,7 +115,11 @@ void Dynamics<dim>::close_force(State<dim> &state, const double dt, const bool b
   damping.apply(state, mean);
   constraints.apply(state, dt, mean);
   if (!book_first_half)
-    return;
+    {
+      for (const auto &block : blocks)
+        block->take_viscous_power(); // booked with the old forces, over both halves
+      return;
+    }
   book_work(state, 0.5 * state.dt_last);
   // known for v_{n-1/2} only: the ledger closes to first order in the step here, not to round-off
   for (const auto &block : blocks)

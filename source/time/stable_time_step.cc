@@ -27,7 +27,7 @@ void StableTimeStep<dim>::finalize(const Parameters &)
 {}
 
 template <int dim>
-double largest_eigenvalue(Dynamics<dim> &dynamics, const unsigned int n_iterations)
+double largest_eigenvalue(Dynamics<dim> &dynamics, const unsigned int n_iterations, const double tolerance)
 {
   // Lanczos for A = M^-1/2 K M^-1/2; q and the work vectors hold M^1/2 u. Without reorthogonalisation the largest Ritz value still
   // converges to the largest eigenvalue (Paige, 1971).
@@ -101,7 +101,7 @@ double largest_eigenvalue(Dynamics<dim> &dynamics, const unsigned int n_iteratio
           T.compute_eigenvalues_symmetric(0., 1e300, 0., eigenvalues, vectors);
           eigenvalue = eigenvalues[eigenvalues.size() - 1];
           residual   = beta * std::abs(vectors(k, eigenvalues.size() - 1));
-          if (residual < 1e-3 * eigenvalue)
+          if (residual < tolerance * eigenvalue)
             break;
         }
     }
@@ -161,7 +161,7 @@ template <int dim>
 void StableTimeStep<dim>::update(Dynamics<dim> &dynamics)
 {
   const double elements  = element_bound(dynamics);
-  const double assembled = 1.01 * largest_eigenvalue(dynamics, 80);
+  const double assembled = 1.01 * largest_eigenvalue(dynamics, 80, 1e-3);
   element_step           = 2. / std::sqrt(elements);
   critical_step          = 2. / std::sqrt(std::min(elements, assembled));
 }
@@ -177,5 +177,5 @@ double StableTimeStep<dim>::next(const double time, const double end_time) const
 }
 
 template class StableTimeStep<3>;
-template double largest_eigenvalue(Dynamics<3> &, unsigned int);
+template double largest_eigenvalue(Dynamics<3> &, unsigned int, double);
 } // namespace Arenite

@@ -12,7 +12,7 @@ namespace Arenite
 {
 /// Decides when and where the mesh changes, and carries the fields over.
 ///
-/// Cells whose indicator exceeds a part of its global maximum are the front. They and `Buffer layers` of cells around them are
+/// Cells whose indicator exceeds a part of its global maximum (at least 2 % of the largest so far) are the front. They and `Buffer layers` of cells around them are
 /// refined to the finest level; cells outside with a small indicator are coarsened, never below the initial mesh. The mesh is
 /// adapted again before a P wave has crossed the buffer, so that the front never meets a coarse cell.
 ///
@@ -39,7 +39,8 @@ public:
   /// Flags for the present state. Returns whether the mesh will change on any process. Collective.
   bool mark(Triangulation &, const Dynamics<dim> &, const State<dim> &);
 
-  /// Change the mesh as flagged; transfers state, positions, boundary scalars and step ratios; rebuilds everything.
+  /// Change the mesh as flagged; transfers state, positions, boundary scalars and step ratios; rebuilds
+  /// everything. The stable step still has to be updated.
   void execute(Triangulation &, Dynamics<dim> &, State<dim> &, StableTimeStep<dim> &) const;
 
   /// Set the time of the next adaptation from the buffer's thickness.
@@ -59,5 +60,6 @@ private:
   bool                                      automatic_boundaries = true, refine_geometry = false;
   unsigned int                              levels = 0, base_level = 0, layers = 2, cell_limit = 50000000;
   double                                    refine_above = 0.2, coarsen_below = 0.05, next_time = 0.;
+  float                                     peak = 0.f; ///< largest indicator so far
 };
 } // namespace Arenite

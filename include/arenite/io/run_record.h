@@ -29,9 +29,9 @@ struct RunRecord
   double setup_core_seconds = 0., core_seconds = 0., output_core_seconds = 0.;
 
   double energy_error = 0., mass_error = 0., momentum_error = 0.;
-  /// "<receiver set or volume>.<quantity>.E_t|E_x|E_inf" -> relative error
+  /// "<receiver set>.<quantity>.E_t", "volume.<quantity>.E_x", "boundary.traction.E_inf" -> relative error
   std::map<std::string, double> errors;
-  /// "<receiver set>.<quantity>.rms|peak" and energies: what runs without an exact solution are compared by
+  /// "<receiver set>.<quantity>.rms|peak": what runs without an exact solution are compared by
   std::map<std::string, double> values;
 
   double peak_memory_mb = 0., total_memory_mb = 0.; ///< largest process, and all together; see measure_memory()

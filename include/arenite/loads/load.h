@@ -35,10 +35,10 @@ public:
   virtual void declare_parameters(Parameters &) = 0;
   virtual void finalize(const Parameters &, const Geometry<dim> &) {}
 
-  /// Rebuild nodal lists after a change of the mesh.
+  /// Rebuild nodal lists after a change of the mesh. @p material: law of the cells with a material id.
   virtual void reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &material) = 0;
 
-  /// force += f(t_n); also remembers f for record_work().
+  /// force += f(t_n); also remembers f for power().
   virtual void add(VectorType &force, const State<dim> &) = 0;
 
   /// Dashpots [N s/m]: the update treats - D (v_{n-1/2} + v_{n+1/2})/2 implicitly, node by node.
