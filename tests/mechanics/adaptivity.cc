@@ -1,6 +1,7 @@
 #include <arenite/adaptivity/field_transfer.h>
 
 #include "body.h"
+#include "cavity_scene.h"
 #include "scene_run.h"
 
 using namespace Arenite;
@@ -9,46 +10,14 @@ using boost::unit_test::label;
 
 namespace
 {
-const std::string cavity = R"(
-set End time = 1.2e-3
-set Loads = push, far
-set Receivers = array
-subsection Mesh
-  set Inner radius = 0.1
-  set Outer radius = 0.5
-  set Refinement = 1
-end
-subsection Materials
-  subsection solid
-    set Density = 2200
-    set Young modulus = 200e6
-    set Poisson ratio = 0.3
-  end
-end
-subsection Loads
-  subsection push
-    set Boundary = cavity
-    set History = C3 step
-    set Amplitude = 1e6
-    set Rise time = 1.5e-4
-  end
-  subsection far
-    set Type = absorbing boundary
-    set Boundary = outer
-    set Condition = spherical
-  end
-end
-subsection Receivers
-  subsection array
-    set Directions = 0.9, 0.35, 0.25; 0.5, 0.3, 0.8
-    set Radii = 0.1, 0.15, 0.2, 0.3
-  end
-end
-subsection Verification
-  set Exact solution = spherical cavity
-  set Inner radius = 0.1
-end
-)";
+/// The reference cavity with room for a front to travel, on a coarse mesh.
+const std::vector<std::string> wide_cavity = {"End time=1.2e-3",
+                                              "Mesh/Outer radius=0.5",
+                                              "Mesh/Refinement=1",
+                                              "Element/Degree=2",
+                                              "Loads/far field/Condition=spherical",
+                                              "Receivers/array/Directions=0.9, 0.35, 0.25; 0.5, 0.3, 0.8",
+                                              "Receivers/array/Radii=0.1, 0.15, 0.2, 0.3"};
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(adaptivity)
@@ -107,14 +76,13 @@ BOOST_AUTO_TEST_CASE(transfer_keeps_polynomials, *label("parallel"))
 // quadrature of curved cells, and the error is that of the uniformly fine mesh.
 BOOST_AUTO_TEST_CASE(front_is_followed, *label("parallel"))
 {
-  const std::vector<std::string> element = {"Element/Type=spectral element", "Element/Degree=2"};
-  auto                           uniform = element, adaptive = element;
+  auto uniform = wide_cavity, adaptive = wide_cavity;
   uniform.push_back("Mesh/Refinement=2");
   adaptive.push_back("Adaptivity/Levels=1");
   adaptive.push_back("Adaptivity/Refine above=0.1");
   adaptive.push_back("Adaptivity/Coarsen below=0.02");
-  const RunRecord fine = run_scene(cavity, uniform), followed = run_scene(cavity, adaptive),
-                  coarse = run_scene(cavity, element);
+  const RunRecord fine = run_scene(cavity_scene, uniform), followed = run_scene(cavity_scene, adaptive),
+                  coarse = run_scene(cavity_scene, wide_cavity);
   const std::string key  = "array.displacement.E_t";
   BOOST_TEST_MESSAGE("E_t fine " << fine.errors.at(key) << " adaptive " << followed.errors.at(key) << " coarse "
                                  << coarse.errors.at(key) << ", unknowns x steps " << fine.dof_steps << " "
