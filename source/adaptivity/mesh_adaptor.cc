@@ -133,12 +133,13 @@ void MeshAdaptor<dim>::initial_refinement(Triangulation &triangulation, Discreti
 }
 
 template <int dim>
-bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &dynamics, const State<dim> &state)
+bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &dynamics, const State<dim> &state,
+                            const bool count)
 {
   const Discretization<dim> &discretization = dynamics.discretization;
   const auto                &cells          = discretization.cells();
   Vector<float>              indicator(cells.size());
-  kind->evaluate(discretization, state, dynamics.velocity(state), dynamics.blocks.front()->material(), indicator);
+  kind->evaluate(discretization, state, dynamics.velocity(state), dynamics.material_of_block, indicator);
   const float largest = Utilities::MPI::max(cells.empty() ? 0.f : indicator.linfty_norm(), discretization.communicator);
 
   // a wave that has left must not hand the fine cells over to what is left behind it
@@ -146,11 +147,15 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
   const float reference = std::max(largest, 0.02f * peak);
 
   std::vector<bool> front(triangulation.n_active_cells(), false), quiet(front);
+  unsigned long     met = 0;
   for (unsigned int cell = 0; cell < cells.size(); ++cell)
     {
-      front[cells[cell]->active_cell_index()] = indicator[cell] > refine_above * reference;
+      const bool in_front                     = indicator[cell] > refine_above * reference;
+      front[cells[cell]->active_cell_index()] = in_front;
       quiet[cells[cell]->active_cell_index()] = indicator[cell] <= coarsen_below * reference;
+      met += count && in_front && static_cast<unsigned int>(cells[cell]->level()) < base_level + levels;
     }
+  n_met += Utilities::MPI::sum(met, discretization.communicator);
   grow(triangulation, front);
   flag(triangulation, front, quiet);
   check_size(triangulation, state.time);
@@ -223,10 +228,7 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
         transfer.next(scalar);
         load->set_nodal_state(scalar);
       }
-  for (const unsigned int node : discretization.hanging.list()) // not part of the update
-    if (node < discretization.n_owned_nodes())
-      for (unsigned int c = 0; c < dim; ++c)
-        state.half_velocity.local_element(dim * node + c) = 0.;
+  zero_at_hanging_nodes(discretization, state.half_velocity);
 
   time_step.ratio.reinit(triangulation.n_active_cells());
   ratios.unpack(time_step.ratio);
@@ -237,12 +239,13 @@ void MeshAdaptor<dim>::schedule(const Dynamics<dim> &dynamics, const double time
 {
   if (!active())
     return;
-  // shortest edge of the finest cells; one layer stays as reserve
-  double edge = std::numeric_limits<double>::max();
+  // shortest time in which a P wave crosses a cell; one layer stays as reserve
+  double crossing = std::numeric_limits<double>::max();
   for (const auto &cell : dynamics.discretization.cells())
-    edge = std::min(edge, cell->minimum_vertex_distance());
-  edge      = Utilities::MPI::min(edge, dynamics.discretization.communicator);
-  next_time = time + std::max(layers - 1., 0.5) * edge / dynamics.blocks.front()->material().p_wave_speed();
+    crossing = std::min(crossing, cell->minimum_vertex_distance() /
+                                    dynamics.material_of_block(cell->material_id()).p_wave_speed());
+  crossing  = Utilities::MPI::min(crossing, dynamics.discretization.communicator);
+  next_time = time + std::max(layers - 1., 0.5) * crossing;
 }
 
 template class MeshAdaptor<3>;

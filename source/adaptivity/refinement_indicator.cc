@@ -17,10 +17,9 @@ class WaveFront : public RefinementIndicator<dim>
 {
 public:
   void evaluate(const Discretization<dim> &discretization, const State<dim> &state, const VectorType &velocity,
-                const LinearElastic &material, Vector<float> &per_cell) const override
+                const MaterialOfBlock &material, Vector<float> &per_cell) const override
   {
     const unsigned int          N = discretization.degree() + 1, n = discretization.nodes_per_cell();
-    const double                cp = material.p_wave_speed();
     std::vector<Tensor<1, dim>> v(n), u(n);
     std::vector<Point<dim>>     x;
     for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
@@ -60,6 +59,7 @@ public:
                       strain = std::max(strain, (slope - mean / count).norm());
                   }
           }
+        const double cp = material(discretization.cells()[cell]->material_id()).p_wave_speed();
         // rounded, so that the same wave on another number of processes gives the same mesh
         per_cell[cell] = static_cast<float>(variation + cp * strain);
       }

@@ -119,6 +119,21 @@ bool VTUOutput<dim>::is_due(const double time, const double dt) const
 }
 
 template <int dim>
+unsigned int VTUOutput<dim>::expected_pictures(const double end_time) const
+{
+  return enabled() ? 1 + static_cast<unsigned int>(std::ceil(end_time / interval * (1. - 1e-12))) : 0;
+}
+
+template <int dim>
+double VTUOutput<dim>::expected_bytes(const Discretization<dim> &discretization) const
+{
+  // per point: three coordinates, the fields, and its number in a cell, four bytes each
+  const double points =
+    std::pow(parts(discretization) + 1., dim) * discretization.triangulation.n_global_active_cells();
+  return 4. * points * (3. + n_field_rows + 1.);
+}
+
+template <int dim>
 void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretization<dim> &discretization,
                            const VectorType &displacement, const VectorType &velocity,
                            const std::vector<LinearElastic> &materials, const double time, const unsigned int step,
@@ -127,7 +142,7 @@ void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretizatio
   const MPI_Comm         communicator = discretization.communicator;
   const unsigned int     rank         = Utilities::MPI::this_mpi_process(communicator);
   const unsigned int     n_ranks      = Utilities::MPI::n_mpi_processes(communicator);
-  const unsigned int     s            = subdivisions > 0 ? subdivisions : discretization.degree();
+  const unsigned int     s            = parts(discretization);
   constexpr unsigned int n_stress     = SymmetricTensor<2, dim>::n_independent_components;
 
   CellPatches<dim>   out;
@@ -142,6 +157,7 @@ void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretizatio
   const unsigned int cell_row     = out.add("material", "", scalar, 1);
   out.add("refinement_level", "", scalar, 1);
   out.add("subdomain", "", scalar, 1);
+  AssertDimension(out.n_rows(), n_field_rows);
   for (const auto &field : cell_fields)
     out.add(field.first, "", scalar, 1);
   const unsigned int x_row = out.n_rows();

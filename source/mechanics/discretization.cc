@@ -199,6 +199,17 @@ void make_consistent(const Discretization<dim> &discretization, VectorType &vect
     discretization.hanging.template interpolate<dim>(vector.begin());
 }
 
+template <int dim>
+void zero_at_hanging_nodes(const Discretization<dim> &discretization, VectorType &vector)
+{
+  const unsigned int n_components = vector.get_partitioner().get() == discretization.node_partitioner.get() ? 1 : dim;
+  for (const unsigned int node : discretization.hanging.list())
+    if (node < discretization.n_owned_nodes())
+      for (unsigned int c = 0; c < n_components; ++c)
+        vector.local_element(n_components * node + c) = 0.;
+}
+
 template class Discretization<3>;
 template void make_consistent(const Discretization<3> &, VectorType &);
+template void zero_at_hanging_nodes(const Discretization<3> &, VectorType &);
 } // namespace Arenite

@@ -102,7 +102,11 @@ void Scene<dim>::finalize(Parameters &parameters)
   for (const auto &load : loads)
     if (const auto *candidate = dynamic_cast<const Pressure<dim> *>(load.get()); candidate && !pressure)
       pressure = candidate->pressure_history().get();
-  exact_solution             = solution_choice.make(parameters, blocks.front().material, pressure);
+  exact_solution = solution_choice.make(parameters, blocks.front().material, pressure);
+  for (const Block &block : blocks)
+    if (exact_solution && !(block.material == blocks.front().material))
+      parameters.refuse("Verification/Exact solution", "holds for one material, but the blocks '" +
+                                                         blocks.front().name + "' and '" + block.name + "' differ");
   constraints.exact_solution = exact_solution.get();
   if (!exact_solution && (initial_state == "exact solution" || parameters.is_set("Constraints/Exact boundaries")))
     parameters.refuse("Verification/Exact solution",

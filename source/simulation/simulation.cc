@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iomanip>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -105,10 +106,7 @@ void Simulation<dim>::set_initial_state()
           }
       }
   scene.constraints.project(state.half_velocity);
-  for (const unsigned int node : discretization.hanging.list())
-    if (node < discretization.n_owned_nodes())
-      for (unsigned int c = 0; c < dim; ++c)
-        state.half_velocity.local_element(dim * node + c) = 0.;
+  zero_at_hanging_nodes(discretization, state.half_velocity);
   make_consistent(discretization, state.displacement); // the energy of the start needs ghosts and hanging nodes
 }
 
@@ -166,10 +164,19 @@ void Simulation<dim>::describe_cost()
   const double steps = std::ceil(scene.end_time / scene.time_step.next(0., scene.end_time));
   record.measure_memory(communicator);
   std::ostringstream text;
+  text.precision(3);
   text << "Cost       about " << 1.1 * steps * fastest << " core-seconds for the time loop on this mesh, "
-       << record.total_memory_mb << " MB of memory";
+       << std::lround(record.total_memory_mb) << " MB of memory";
   if (scene.adaptor.active())
-    text << "; adaptation will change both";
+    {
+      const double finest = triangulation.n_global_coarse_cells() *
+                            std::pow(2., dim * (scene.mesh.refinement + scene.adaptor.max_passes()));
+      text << "\nAdaptive   " << triangulation.n_global_active_cells() << " cells now, " << std::uint64_t(finest)
+           << " if all were fine; a change of the mesh costs about as much as 100 steps";
+    }
+  if (scene.pictures.enabled())
+    text << "\nOutput     " << scene.pictures.expected_pictures(scene.end_time) << " pictures of at most "
+         << 1e-6 * scene.pictures.expected_bytes(discretization) << " MB each before compression";
   log.line(text.str());
 }
 
@@ -229,7 +236,8 @@ void Simulation<dim>::run(const OutputDirectory &directory)
     }
   if (n_adaptations > 0)
     log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
-        << 100. * adaptation_seconds / record.core_seconds << " % of the run)\n";
+        << 100. * adaptation_seconds / record.core_seconds << " % of the run); the front met "
+        << scene.adaptor.coarse_cells_met() << " cells before they were refined\n";
 }
 
 template <int dim>
@@ -254,41 +262,34 @@ void Simulation<dim>::march(const OutputDirectory &directory)
 template <int dim>
 bool Simulation<dim>::adapt(const double dt_old)
 {
-  const auto   start         = Clock::now();
-  const double mass          = dynamics->total_mass();
-  const auto   momentum      = dynamics->momentum(state);
-  bool         changed       = false;
-  double       energy_before = 0.;
+  const auto                    start = Clock::now();
+  std::optional<Conserved<dim>> before;
   for (unsigned int pass = 0; pass < scene.adaptor.max_passes(); ++pass)
     {
-      if (!scene.adaptor.mark(triangulation, *dynamics, state))
+      if (!scene.adaptor.mark(triangulation, *dynamics, state, pass == 0))
         break;
-      if (!changed)
-        energy_before = dynamics->total_energy(state, dt_old);
-      changed = true;
+      if (!before)
+        before = dynamics->conserved(state, dt_old);
       scene.adaptor.execute(triangulation, *dynamics, state, scene.time_step);
       dynamics->compute_force(state);
     }
-  if (changed)
+  if (before)
     {
       scene.time_step.update(*dynamics);
-      dynamics->close_force(state, scene.time_step.next(state.time, scene.end_time), false);
-      ++n_adaptations;
       const double dt = scene.time_step.next(state.time, scene.end_time);
-      dynamics->balance.add_adaptation(dynamics->total_energy(state, dt) - energy_before);
-      double scale = 0.;
-      for (unsigned int i = 0; i < state.half_velocity.locally_owned_size(); ++i)
-        if (state.inverse_mass.local_element(i) > 0.)
-          scale += std::abs(state.half_velocity.local_element(i)) / state.inverse_mass.local_element(i);
-      scale             = Utilities::MPI::sum(scale, communicator);
-      record.mass_error = std::max(record.mass_error, std::abs(dynamics->total_mass() - mass) / initial_mass);
-      if (scale > 0.)
-        record.momentum_error = std::max(record.momentum_error, (dynamics->momentum(state) - momentum).norm() / scale);
+      dynamics->close_force(state, dt, false);
+      const Conserved<dim> after = dynamics->conserved(state, dt);
+      dynamics->balance.add_adaptation(after.energy - before->energy);
+      record.mass_error = std::max(record.mass_error, std::abs(after.mass - before->mass) / initial_mass);
+      if (after.momentum_scale > 0.)
+        record.momentum_error =
+          std::max(record.momentum_error, (after.momentum - before->momentum).norm() / after.momentum_scale);
       scene.receivers.reinit(discretization, material_of_block());
+      ++n_adaptations;
     }
   scene.adaptor.schedule(*dynamics, state.time);
   adaptation_seconds += core_seconds(start);
-  return changed;
+  return before.has_value();
 }
 
 template <int dim>

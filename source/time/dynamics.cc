@@ -1,5 +1,6 @@
 #include <arenite/time/dynamics.h>
 
+#include <cmath>
 #include <numeric>
 
 namespace Arenite
@@ -14,10 +15,10 @@ Dynamics<dim>::Dynamics(Discretization<dim> &discretization, std::vector<std::un
   , blocks(std::move(blocks))
   , loads(std::move(loads))
   , constraints(constraints)
-  , material(material_of_block)
+  , material_of_block(material_of_block)
 {
-  if (!material)
-    material = [this](types::material_id) { return this->blocks.front()->material(); };
+  if (!this->material_of_block)
+    this->material_of_block = [this](types::material_id) { return this->blocks.front()->material(); };
   std::vector<std::string> names;
   for (const auto &load : this->loads)
     names.push_back(load->name);
@@ -47,7 +48,7 @@ void Dynamics<dim>::reinit(State<dim> &state)
         state.inverse_mass.local_element(dim * node + c) = m > 0. ? 1. / m : 0.;
       }
   for (auto &load : loads)
-    load->reinit(discretization, nodal, material);
+    load->reinit(discretization, nodal, material_of_block);
   constraints.reinit(discretization);
   damping.reinit(loads, constraints);
   this->mass = std::move(nodal.condensed);
@@ -177,13 +178,21 @@ double Dynamics<dim>::total_mass() const
 }
 
 template <int dim>
-Tensor<1, dim> Dynamics<dim>::momentum(const State<dim> &state) const
+Conserved<dim> Dynamics<dim>::conserved(const State<dim> &state, const double dt) const
 {
-  Tensor<1, dim> sum;
+  Conserved<dim> result;
   for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
     for (unsigned int c = 0; c < dim; ++c)
-      sum[c] += mass.local_element(node) * state.half_velocity.local_element(dim * node + c);
-  return Utilities::MPI::sum(sum, discretization.communicator);
+      {
+        const double mv = mass.local_element(node) * state.half_velocity.local_element(dim * node + c);
+        result.momentum[c] += mv;
+        result.momentum_scale += std::abs(mv);
+      }
+  result.mass           = total_mass();
+  result.energy         = total_energy(state, dt);
+  result.momentum       = Utilities::MPI::sum(result.momentum, discretization.communicator);
+  result.momentum_scale = Utilities::MPI::sum(result.momentum_scale, discretization.communicator);
+  return result;
 }
 
 template <int dim>

@@ -82,10 +82,7 @@ struct Body
         value[c] = scale * std::sin(1e4 * (x[0] + 1.7 * x[1] + 2.3 * x[2]) + 1.1 * c);
       return value;
     });
-    for (const unsigned int node : discretization.hanging.list())
-      if (node < discretization.n_owned_nodes())
-        for (unsigned int c = 0; c < 3; ++c)
-          vector.local_element(3 * node + c) = 0.;
+    zero_at_hanging_nodes(discretization, vector);
   }
 
   ElementChoice                choice;

@@ -25,10 +25,7 @@ double manufactured_error(const ElementChoice &choice, std::shared_ptr<const Exa
   body.assemble(std::move(loads));
   body.set(body.state.displacement, [&](const Point<3> &x) { return exact->displacement(x, 0.); });
   body.set(body.state.half_velocity, [&](const Point<3> &x) { return exact->velocity(x, 0.); });
-  for (const unsigned int node : body.discretization.hanging.list())
-    if (node < body.discretization.n_owned_nodes())
-      for (unsigned int c = 0; c < 3; ++c)
-        body.state.half_velocity.local_element(3 * node + c) = 0.;
+  zero_at_hanging_nodes(body.discretization, body.state.half_velocity);
   StableTimeStep<3> limit;
   limit.calibrate(*body.dynamics);
   const unsigned int n_steps = std::ceil(end / (courant * limit.limit()));

@@ -221,10 +221,7 @@ BOOST_AUTO_TEST_CASE(spherical_boundary_is_passive, *label("parallel"))
         else
           body.randomize(body.state.half_velocity, 1.);
         body.constraints.project(body.state.half_velocity);
-        for (const unsigned int node : body.discretization.hanging.list())
-          if (node < body.discretization.n_owned_nodes())
-            for (unsigned int c = 0; c < 3; ++c)
-              body.state.half_velocity.local_element(3 * node + c) = 0.;
+        zero_at_hanging_nodes(body.discretization, body.state.half_velocity);
         const double dt      = 0.9 * stable_step(body);
         const double initial = body.dynamics->total_energy(body.state, 0.);
         body.dynamics->balance.set_initial(initial);

@@ -36,8 +36,13 @@ public:
 
   bool due(const double time) const { return active() && time >= next_time; }
 
-  /// Flags for the present state. Returns whether the mesh will change on any process. Collective.
-  bool mark(Triangulation &, const Dynamics<dim> &, const State<dim> &);
+  /// Flags for the present state. Returns whether the mesh will change on any process. Collective. @p count: the fields come from
+  /// a run on the present mesh, so that coarse cells in the front are ones that it has met.
+  bool mark(Triangulation &, const Dynamics<dim> &, const State<dim> &, bool count);
+
+  /// Cells below the finest level that were part of the front when the mesh was adapted, over the run: the buffer was too thin,
+  /// or something started away from the front. Summed over processes.
+  unsigned long coarse_cells_met() const { return n_met; }
 
   /// Change the mesh as flagged; transfers state, positions, boundary scalars and step ratios; rebuilds
   /// everything. The stable step still has to be updated.
@@ -60,6 +65,7 @@ private:
   bool                                      automatic_boundaries = true, refine_geometry = false;
   unsigned int                              levels = 0, base_level = 0, layers = 2, cell_limit = 50000000;
   double                                    refine_above = 0.2, coarsen_below = 0.05, next_time = 0.;
-  float                                     peak = 0.f; ///< largest indicator so far
+  float                                     peak  = 0.f; ///< largest indicator so far
+  unsigned long                             n_met = 0;
 };
 } // namespace Arenite

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <arenite/base/registry.h>
-#include <arenite/materials/linear_elastic.h>
+#include <arenite/mechanics/cell_fields.h>
 #include <arenite/mechanics/state.h>
 
 #include <deal.II/lac/vector.h>
@@ -18,7 +18,7 @@ public:
 
   /// @p velocity and the displacement of @p state have valid ghosts and hanging nodes.
   virtual void evaluate(const Discretization<dim> &, const State<dim> &, const VectorType &velocity,
-                        const LinearElastic &, dealii::Vector<float> &per_cell) const = 0;
+                        const MaterialOfBlock &, dealii::Vector<float> &per_cell) const = 0;
 };
 
 template <int dim>

@@ -46,6 +46,12 @@ public:
              const VectorType &displacement, const VectorType &velocity, const std::vector<LinearElastic> &materials,
              double time, unsigned int step, const std::map<std::string, dealii::Vector<float>> &cell_fields = {});
 
+  /// Pictures of a run that ends at @p end_time, if its step is shorter than the interval.
+  unsigned int expected_pictures(double end_time) const;
+
+  /// Size of one picture of the present mesh before compression [byte].
+  double expected_bytes(const Discretization<dim> &) const;
+
   /// Time of the last picture [s]; -1 before the first.
   double last_time() const { return pictures.empty() ? -1. : pictures.back().time; }
 
@@ -59,6 +65,14 @@ private:
     std::string              record; ///< .pvtu, relative to the output directory
     std::vector<std::string> pieces;
   };
+
+  /// Components of all point fields that every picture has, without positions.
+  static constexpr unsigned int n_field_rows = 2 * dim + dim * dim + 5;
+
+  unsigned int parts(const Discretization<dim> &discretization) const
+  {
+    return subdivisions > 0 ? subdivisions : discretization.degree();
+  }
 
   double               next_time = 0.;
   std::vector<Picture> pictures;

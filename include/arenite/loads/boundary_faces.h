@@ -106,9 +106,7 @@ std::vector<NodeValue<std::array<double, K>>> integrate_on_boundary(const Discre
         discretization.hanging.template condense<1>(vector.begin());
       vector.compress(dealii::VectorOperation::add);
       if (!condense)
-        for (const unsigned int node : discretization.hanging.list())
-          if (node < discretization.n_owned_nodes())
-            vector.local_element(node) = 0.;
+        zero_at_hanging_nodes(discretization, vector);
     }
   for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
     if (sum[K - 1].local_element(node) > 0.)

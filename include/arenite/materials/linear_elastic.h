@@ -11,6 +11,11 @@ struct LinearElastic
   double bulk_modulus  = 0.; ///< K [Pa]
   double shear_modulus = 0.; ///< G [Pa]
 
+  bool operator==(const LinearElastic &other) const
+  {
+    return density == other.density && bulk_modulus == other.bulk_modulus && shear_modulus == other.shear_modulus;
+  }
+
   /// lambda = K - 2 G / 3 [Pa]
   constexpr double lame_lambda() const { return bulk_modulus - 2. / 3. * shear_modulus; }
 

@@ -107,6 +107,10 @@ private:
 template <int dim>
 void make_consistent(const Discretization<dim> &, VectorType &);
 
+/// Owned entries at hanging nodes become zero: they are not unknowns, so sums over nodes and the update must not see them.
+template <int dim>
+void zero_at_hanging_nodes(const Discretization<dim> &, VectorType &);
+
 /// Copy with the ghost entries: deal.II's constructors and assignments leave out what waits there for compress().
 inline void copy_with_ghosts(const VectorType &from, VectorType &to)
 {

@@ -7,6 +7,16 @@
 
 namespace Arenite
 {
+/// What a change of the mesh should leave alone, of the modelled sector and summed over processes.
+template <int dim>
+struct Conserved
+{
+  double                 mass   = 0.;         ///< [kg]
+  double                 energy = 0.;         ///< kinetic and stored [J]
+  dealii::Tensor<1, dim> momentum;            ///< [kg m/s]
+  double                 momentum_scale = 0.; ///< sum of m |v_c| over nodes and components [kg m/s]
+};
+
 /// The semi-discrete equations M a = f_int(u) + f_loads(u, v, t) of one mesh, and one step through them:
 ///
 ///   dynamics.compute_force(state);      // f_n: internal forces and loads
@@ -49,9 +59,11 @@ public:
   /// v_n = v_{n-1/2} + dt_{n-1}/2 M^-1 f_n with ghosts and hanging nodes, between close_force() and advance().
   VectorType velocity(const State<dim> &) const;
 
-  /// Total mass [kg] and momentum [kg m/s] of the modelled sector.
-  double                 total_mass() const;
-  dealii::Tensor<1, dim> momentum(const State<dim> &) const;
+  /// Total mass of the modelled sector [kg].
+  double total_mass() const;
+
+  /// Mass, energy and momentum at t_n, between close_force() and advance(). Collective.
+  Conserved<dim> conserved(const State<dim> &, double dt) const;
 
   Discretization<dim>                             &discretization;
   std::vector<std::unique_ptr<InternalForce<dim>>> blocks;
@@ -59,11 +71,11 @@ public:
   Constraints<dim>                                &constraints;
   EnergyBalance                                    balance;
   VectorType                                       mass; ///< per node [kg], zero at hanging nodes
+  MaterialOfBlock                                  material_of_block;
 
 private:
   void book_work(const State<dim> &, double half_step);
 
-  MaterialOfBlock  material;
   NodeDamping<dim> damping;
 };
 } // namespace Arenite
