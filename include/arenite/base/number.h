@@ -85,7 +85,7 @@ ARENITE_INLINE V select(const Mask<V> &mask, const V &a, const V &b)
 {
   if constexpr (is_lanes<V>)
     {
-      V result                                = b;
+      V result                               = b;
       std::experimental::where(mask, result) = a;
       return result;
     }
@@ -124,20 +124,20 @@ struct NumberFunctions<double>
 };
 
 #if defined(__x86_64__) && defined(__GLIBC__) && (defined(__AVX512F__) || defined(__AVX2__))
-#define ARENITE_LIBMVEC
-#if defined(__AVX512F__)
+#  define ARENITE_LIBMVEC
+#  if defined(__AVX512F__)
 extern "C"
 {
-  __m512d _ZGVeN8v_exp(__m512d);
-  __m512d _ZGVeN8v_log(__m512d);
-  __m512d _ZGVeN8vv_pow(__m512d, __m512d);
+  __m512d _ZGVeN8v_exp(__m512d) __attribute__((const));
+  __m512d _ZGVeN8v_log(__m512d) __attribute__((const));
+  __m512d _ZGVeN8vv_pow(__m512d, __m512d) __attribute__((const));
 }
-#endif
+#  endif
 extern "C"
 {
-  __m256d _ZGVdN4v_exp(__m256d);
-  __m256d _ZGVdN4v_log(__m256d);
-  __m256d _ZGVdN4vv_pow(__m256d, __m256d);
+  __m256d _ZGVdN4v_exp(__m256d) __attribute__((const));
+  __m256d _ZGVdN4v_log(__m256d) __attribute__((const));
+  __m256d _ZGVdN4vv_pow(__m256d, __m256d) __attribute__((const));
 }
 #endif
 
@@ -151,11 +151,11 @@ struct NumberFunctions<V, std::enable_if_t<is_lanes<V>>>
   static V exponential(const V &a)
   {
 #ifdef ARENITE_LIBMVEC
-#if defined(__AVX512F__)
+#  if defined(__AVX512F__)
     if constexpr (V::size() == 8)
       return V(_ZGVeN8v_exp(static_cast<__m512d>(a)));
     else
-#endif
+#  endif
       if constexpr (V::size() == 4)
       return V(_ZGVdN4v_exp(static_cast<__m256d>(a)));
     else
@@ -165,11 +165,11 @@ struct NumberFunctions<V, std::enable_if_t<is_lanes<V>>>
   static V logarithm(const V &a)
   {
 #ifdef ARENITE_LIBMVEC
-#if defined(__AVX512F__)
+#  if defined(__AVX512F__)
     if constexpr (V::size() == 8)
       return V(_ZGVeN8v_log(static_cast<__m512d>(a)));
     else
-#endif
+#  endif
       if constexpr (V::size() == 4)
       return V(_ZGVdN4v_log(static_cast<__m256d>(a)));
     else
@@ -179,11 +179,11 @@ struct NumberFunctions<V, std::enable_if_t<is_lanes<V>>>
   static V power(const V &a, const double n)
   {
 #ifdef ARENITE_LIBMVEC
-#if defined(__AVX512F__)
+#  if defined(__AVX512F__)
     if constexpr (V::size() == 8)
       return V(_ZGVeN8vv_pow(static_cast<__m512d>(a), static_cast<__m512d>(V(n))));
     else
-#endif
+#  endif
       if constexpr (V::size() == 4)
       return V(_ZGVdN4vv_pow(static_cast<__m256d>(a), static_cast<__m256d>(V(n))));
     else

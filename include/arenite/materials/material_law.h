@@ -13,21 +13,21 @@ namespace Arenite
 template <typename Number>
 struct PointIncrement
 {
-  SymTensor<Number> strain;                    ///< logarithmic strain increment [-], tension positive
-  Number            density_old = Number(1.);  ///< at t_n [kg/m^3]
-  Number            density     = Number(1.);  ///< at t_{n+1} [kg/m^3]
-  double            dt          = 0.;          ///< [s]
+  SymTensor<Number> strain;                   ///< logarithmic strain increment [-], tension positive
+  Number            density_old = Number(1.); ///< at t_n [kg/m^3]
+  Number            density     = Number(1.); ///< at t_{n+1} [kg/m^3]
+  double            dt          = 0.;         ///< [s]
 };
 
 /// What a law answers, at t_{n+1}.
 template <typename Number>
 struct Response
 {
-  SymTensor<Number> stress;                    ///< Cauchy stress [Pa], tension positive
-  Number            wave_speed = Number(0.);   ///< no disturbance of the present state is faster [m/s]
-  Number            stored     = Number(0.);   ///< recoverable energy [J/m^3], per present volume
-  Number            dissipated = Number(0.);   ///< what the step turned into heat and closed pores [J/m^3], per present volume
-  double            substeps   = 1.;           ///< parts into which the law divided the step
+  SymTensor<Number> stress;                  ///< Cauchy stress [Pa], tension positive
+  Number            wave_speed = Number(0.); ///< no disturbance of the present state is faster [m/s]
+  Number            stored     = Number(0.); ///< recoverable energy [J/m^3], per present volume
+  Number dissipated = Number(0.); ///< what the step turned into heat and closed pores [J/m^3], per present volume
+  double substeps   = 1.;         ///< parts into which the law divided the step
 };
 
 /// No memory but the stress.

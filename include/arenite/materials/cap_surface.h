@@ -1,0 +1,182 @@
+#pragma once
+
+#include <arenite/base/number.h>
+
+#include <string>
+
+namespace Arenite
+{
+/// Smooth yield surface of soils in the invariants I1 = -tr(sigma) (compression positive) and j = sqrt(J2): a failure surface, an
+/// elliptic cap in front of it and an elliptic tension cut-off behind it, joined with a continuous normal.
+///
+///   failure, 0 <= I1 < L:  f = j - Fe(I1),                              Fe = alpha - gamma exp(-beta I1) + theta I1
+///   cap, I1 >= L:          f = sqrt(j^2 + ((I1 - M)/R)^2) - b,          b = (X - M)/R
+///   tension, I1 < 0:       f = sqrt(j^2 + ((I1 - C)/r)^2) - B,          ends at I1 = -T
+///
+/// Hardening moves the cap: X(k) = X0 + (1/D) [1/(1 - k/W) - 1] with the compactive viscoplastic volume strain k. The stored
+/// variable is the junction xi: L for xi >= 0, X - X_min for xi < 0, because X, M and b are explicit in it:
+///
+///   X = L + R Fe (h + c),  M = L + R Fe h,  b = Fe c,   h = R Fe'(L),  c = sqrt(1 + h^2).
+///
+/// Below X_min = X(L = 0) the cap would begin inside the tension cut-off. The small-cap rule keeps L = 0 there and reduces the axis
+/// ratio, R^2 = X^2/(F0^2 + 2 X F0 F0'), so that the ellipse still meets the cut-off with a continuous normal at (0, F0).
+///
+/// Roger (2015), equations (2.3.7)-(2.3.29); the explicit form in L and the small-cap rule are our own.
+struct CapSurface
+{
+  double alpha            = 0.; ///< [Pa], > gamma
+  double gamma            = 0.; ///< [Pa]
+  double beta             = 0.; ///< [1/Pa]
+  double theta            = 0.; ///< [-]
+  double axis_ratio       = 4.; ///< R [-]
+  double initial_position = 0.; ///< X0 on the I1 axis [Pa]
+  double hardening_rate   = 0.; ///< D [1/Pa]
+  double hardening_limit  = 0.; ///< W [-]
+  double tension_limit    = 0.; ///< T on the I1 axis [Pa]
+  bool   small_cap_rule   = false;
+
+  // derived by finalize()
+  double F0 = 0., F0_slope = 0.;                                     ///< Fe(0) [Pa], Fe'(0) [-]
+  double tension_center = 0., tension_axis = 0., tension_ratio = 1.; ///< C [Pa], B [Pa], r [-]
+  double smallest_position = 0.;                                     ///< X_min [Pa]
+
+  /// Derived constants. @return the rule that the parameters break, with the numbers; empty if all is well.
+  std::string finalize();
+
+  template <typename Number>
+  struct Failure
+  {
+    Number value, slope, curvature; ///< Fe [Pa], Fe' [-], Fe'' [1/Pa]
+  };
+
+  /// Failure surface, continued by its tangent for I1 < 0.
+  template <typename Number>
+  Failure<Number> failure(const Number &I1) const
+  {
+    const Mask<Number> tension = I1 < Number(0.);
+    const Number       x       = select(tension, Number(0.), I1);
+    const Number       z       = gamma > 0. ? Number(gamma) * exponential(Number(Number(-beta) * x)) : Number(0.);
+    Failure<Number>    F;
+    F.slope = Number(beta) * z + Number(theta);
+    F.value =
+      select(tension, Number(Number(F0) + Number(F0_slope) * I1), Number(Number(alpha) - z + Number(theta) * x));
+    F.curvature = select(tension, Number(0.), Number(Number(-beta * beta) * z));
+    return F;
+  }
+
+  /// The cap and its derivatives with respect to xi.
+  template <typename Number>
+  struct Cap
+  {
+    Number X, L, M, b, R;
+    Number dX, dM, db, dR;
+  };
+
+  template <typename Number>
+  Cap<Number> cap(const Number &xi) const
+  {
+    const Mask<Number>    small = xi < Number(0.);
+    const Number          L     = select(small, Number(0.), xi);
+    const Failure<Number> F     = failure(L);
+    const Number          R = Number(axis_ratio), h = R * F.slope, c = square_root(Number(Number(1.) + h * h));
+    const Number          e = h + c, D1 = Number(1.) + h * h + R * R * F.value * F.curvature;
+    Cap<Number>           cap;
+    cap.X  = L + R * F.value * e;
+    cap.L  = L;
+    cap.M  = L + R * F.value * h;
+    cap.b  = F.value * c;
+    cap.R  = R;
+    cap.dX = e / c * D1;
+    cap.dM = D1;
+    cap.db = F.slope / c * D1;
+    cap.dR = Number(0.);
+    if (any_of(small))
+      {
+        const double F0F = F0 * F0_slope;
+        const Number X   = select(small, Number(Number(smallest_position) + xi), Number(smallest_position));
+        const Number n = Number(F0 * F0) + Number(2. * F0F) * X, R2 = X * X / n, Rs = square_root(R2);
+        const Number dR2 = Number(2.) * X * (Number(F0 * F0) + Number(F0F) * X) / (n * n);
+        const Number b   = square_root(Number(Number(F0 * F0) + Number(F0F * F0F) * R2));
+        cap.X            = select(small, X, cap.X);
+        cap.M            = select(small, Number(Number(F0F) * R2), cap.M);
+        cap.b            = select(small, b, cap.b);
+        cap.R            = select(small, Rs, cap.R);
+        cap.dX           = select(small, Number(1.), cap.dX);
+        cap.dM           = select(small, Number(Number(F0F) * dR2), cap.dM);
+        cap.db           = select(small, Number(Number(F0F * F0F) * dR2 / (Number(2.) * b)), cap.db);
+        cap.dR           = select(small, Number(dR2 / (Number(2.) * Rs)), cap.dR);
+      }
+    return cap;
+  }
+
+  /// f in the region of I1 [Pa]; @p cap belongs to the present xi.
+  template <typename Number>
+  Number yield_function(const Number &I1, const Number &j, const Cap<Number> &cap) const
+  {
+    const Mask<Number> tension = I1 < Number(0.), on_cap = !(I1 < cap.L);
+    const Number       center  = select(tension, Number(tension_center), cap.M);
+    const Number       ratio   = select(tension, Number(tension_ratio), cap.R);
+    const Number       axis    = select(tension, Number(tension_axis), cap.b);
+    const Number       v       = (I1 - center) / ratio;
+    const Number       ellipse = square_root(Number(j * j + v * v)) - axis;
+    const Mask<Number> between = !(tension || on_cap);
+    if (!any_of(between))
+      return ellipse;
+    return select(between, Number(j - failure(I1).value), ellipse);
+  }
+
+  /// k(X) - k(X_n) without cancellation, and dk/dX.
+  template <typename Number>
+  Number compaction(const Number &X, const Number &X_n) const
+  {
+    const Number y = stiffened(X), y_n = stiffened(X_n);
+    return Number(hardening_limit * hardening_rate) * (X - X_n) / (y * y_n);
+  }
+  template <typename Number>
+  Number compaction_slope(const Number &X) const
+  {
+    const Number y = stiffened(X);
+    return Number(hardening_limit * hardening_rate) / (y * y);
+  }
+  /// k(X) [-]
+  template <typename Number>
+  Number compaction(const Number &X) const
+  {
+    return compaction<Number>(X, Number(initial_position));
+  }
+
+  /// xi of a cap that ends at X >= X0; Newton's method inside of a bracket, for a start or a transfer.
+  double junction(double X) const;
+
+  /// The same on lanes, inside of [low, high] with X(low) <= X <= X(high).
+  template <typename Number>
+  Number junction(const Number &X, Number low, Number high) const
+  {
+    Number       xi     = high;
+    Mask<Number> active = high > low;
+    for (unsigned int i = 0; i < 100 && any_of(active); ++i)
+      {
+        const Cap<Number>  c      = cap(xi);
+        const Number       excess = c.X - X, newton = xi - excess / c.dX;
+        const Mask<Number> above  = excess > Number(0.);
+        low                       = select(Mask<Number>(active && !above), xi, low);
+        high                      = select(Mask<Number>(active && above), xi, high);
+        const Mask<Number> inside = !(newton < low) && !(newton > high);
+        const Number       next   = select(inside, newton, Number(Number(0.5) * (low + high)));
+        const Mask<Number> finished =
+          !(absolute(Number(next - xi)) > Number(1e-15) * (absolute(xi) + Number(smallest_position)));
+        xi     = select(active, next, xi);
+        active = active && !finished;
+      }
+    return xi;
+  }
+
+private:
+  /// 1 + D (X - X0)
+  template <typename Number>
+  Number stiffened(const Number &X) const
+  {
+    return Number(1.) + Number(hardening_rate) * (X - Number(initial_position));
+  }
+};
+} // namespace Arenite

@@ -1,0 +1,239 @@
+#pragma once
+
+#include <arenite/materials/cap_flow.h>
+#include <arenite/materials/elastic_constants.h>
+#include <arenite/materials/material_law.h>
+
+#include <string>
+
+namespace Arenite
+{
+/// Elastic stiffness that does not change.
+struct ConstantStiffness
+{
+  template <typename Number>
+  using History = NoHistory<Number>;
+
+  template <typename Number>
+  struct Moduli
+  {
+    Number K, G; ///< [Pa], for the whole step
+  };
+
+  void declare_parameters(Parameters &parameters) { constants.declare_parameters(parameters); }
+  void finalize(const Parameters &parameters) { elastic = constants.finalize(parameters); }
+
+  double          density() const { return elastic.density; }
+  History<double> initial_history() const { return {}; }
+  double          wave_speed_bound() const { return elastic.p_wave_speed(); }
+
+  template <typename Number>
+  Moduli<Number> moduli(const PointIncrement<Number> &, History<Number> &) const
+  {
+    return {Number(elastic.bulk_modulus), Number(elastic.shear_modulus)};
+  }
+  template <typename Number>
+  void after_transfer(History<Number> &) const
+  {}
+
+  ElasticConstants constants;
+  LinearElastic    elastic;
+};
+
+/// Soil with a smooth cap (CapSurface) and overstress viscosity: the cap model of Roger (2015), sections 2.2 and 2.3.
+///
+///   eps_dot = eps_e_dot + eps_vp_dot,   sigma_dot = E : eps_e_dot,   eps_vp_dot = eta <f/f0>^N df/dsigma     (Perzyna)
+///
+/// eta is a fluidity: 0 is elastic, infinity is rate independent. `Duvaut-Lions` relaxes towards the rate-independent state with one
+/// time, sigma = (sigma_trial + (dt/tau) sigma_inf)/(1 + dt/tau), X alike. Only compaction hardens the cap. Backward Euler,
+/// first order in the step; a step whose strain is large against the surface is divided.
+///
+/// Tension opens a gap: the volume strain of the tension cut-off is kept as `separation` and must be closed, at constant
+/// stress, before the pores can be compressed again.
+template <typename Stiffness>
+struct ViscoplasticCap
+{
+  static constexpr const char *name = "viscoplastic cap";
+  static constexpr const char *description =
+    "Soil: failure surface, hardening cap and tension cut-off with overstress viscosity.";
+
+  template <typename Number>
+  struct History
+  {
+    Number                                       cap_junction = Number(0.); ///< xi [Pa], see CapSurface
+    Number                                       separation   = Number(0.); ///< open gap [-]
+    typename Stiffness::template History<Number> stiffness;
+
+    template <typename F>
+    void for_each(F &&f)
+    {
+      f("cap junction", cap_junction);
+      f("separation", separation);
+      stiffness.for_each(f);
+    }
+  };
+
+  enum class Viscosity
+  {
+    perzyna,
+    duvaut_lions,
+    none
+  };
+
+  void declare_parameters(Parameters &);
+  void finalize(const Parameters &);
+
+  double density() const { return stiffness.density(); }
+  double wave_speed_bound() const { return stiffness.wave_speed_bound(); }
+
+  History<double> initial_history() const
+  {
+    History<double> history;
+    history.cap_junction = surface.junction(surface.initial_position);
+    history.stiffness    = stiffness.initial_history();
+    return history;
+  }
+
+  template <typename Number>
+  Response<Number> update(const SymTensor<Number> &stress_n, const PointIncrement<Number> &increment,
+                          History<Number> &history) const
+  {
+    const auto        moduli = stiffness.moduli(increment, history.stiffness);
+    Response<Number>  response;
+    SymTensor<Number> stress = stress_n;
+    const unsigned    n      = parts(stress_n, increment, moduli.K, moduli.G, history);
+    const auto        strain = n == 1 ? increment.strain : increment.strain * Number(1. / n);
+    for (unsigned int part = 0; part < n; ++part)
+      response.dissipated += step(stress, strain, increment.dt / n, moduli.K, moduli.G, history);
+
+    const Number p      = pressure(stress);
+    response.stress     = stress;
+    response.substeps   = n;
+    response.wave_speed = square_root(Number((moduli.K + Number(4. / 3.) * moduli.G) / increment.density));
+    response.stored     = Number(0.5) * (p * p / moduli.K + second_invariant(deviator(stress)) / moduli.G);
+    return response;
+  }
+
+  template <typename Number>
+  void after_transfer(SymTensor<Number> &, History<Number> &history) const
+  {
+    // overstress is admissible; a cap in front of its start, or a negative gap, is not
+    history.cap_junction = max(history.cap_junction, Number(surface.junction(surface.initial_position)));
+    history.separation   = max(history.separation, Number(0.));
+    stiffness.after_transfer(history.stiffness);
+  }
+
+  Stiffness   stiffness;
+  CapSurface  surface;
+  std::string viscosity_name  = "Perzyna";
+  Viscosity   viscosity       = Viscosity::perzyna;
+  double      fluidity        = 0.;  ///< eta [1/s]
+  double      overstress      = 1e6; ///< f0 [Pa]
+  double      exponent        = 1.;  ///< N
+  double      relaxation_time = 0.;  ///< tau of Duvaut-Lions [s]
+  double      substep_size = 0.5; ///< largest strain of one part, over that which crosses the surface; 0: never divide
+  bool        gap_closure  = true;
+
+private:
+  std::string path;
+
+  /// Trial stress and its invariants. J2 carries a floor below round-off so that its root can be differentiated.
+  template <typename Number>
+  struct Trial
+  {
+    SymTensor<Number> s;
+    Number            I1, j;
+  };
+  template <typename Number>
+  Trial<Number> trial(const SymTensor<Number> &stress, const SymTensor<Number> &strain, const Number &volume_strain,
+                      const Number &K, const Number &G) const
+  {
+    Trial<Number> t;
+    t.s  = deviator(stress) + deviator(strain) * Number(Number(2.) * G);
+    t.I1 = -trace(stress) - Number(3.) * K * volume_strain;
+    t.j  = square_root(Number(second_invariant(t.s) + Number(1e-32 * surface.F0 * surface.F0)));
+    return t;
+  }
+
+  /// Number of parts of a step: strains above `substep_size` times those that cross the surface, |dev| > F/G, |vol| > X/(3K), are
+  /// divided where the state yields. The same for all lanes.
+  template <typename Number>
+  unsigned int parts(const SymTensor<Number> &stress, const PointIncrement<Number> &increment, const Number &K,
+                     const Number &G, const History<Number> &history) const
+  {
+    constexpr unsigned int most = 1000;
+    if (substep_size == 0.)
+      return 1;
+    using V             = Value<Number>;
+    const V    volume   = value_of(trace(increment.strain));
+    const V    shear    = value_of(square_root(Number(second_invariant(deviator(increment.strain)) + Number(1e-60))));
+    const V    I1       = value_of(Number(-trace(stress)));
+    const V    strength = max(surface.failure(I1).value, V(surface.F0));
+    const V    K_v = value_of(K), G_v = value_of(G), xi = value_of(history.cap_junction);
+    const auto cap    = surface.cap(xi);
+    const V    needed = max(V(V(2.) * shear * G_v / strength), V(V(3.) * absolute(volume) * K_v / cap.X));
+    if (!any_of(needed > V(substep_size)))
+      return 1;
+    const auto    t      = trial(stress, increment.strain, trace(increment.strain), K, G);
+    const Mask<V> yields = surface.yield_function(value_of(t.I1), value_of(t.j), cap) > V(0.);
+    double        n      = 1.;
+    for (int l = 0; l < n_lanes<V>(); ++l)
+      if (mask_lane(yields, l))
+        n = std::max(n, std::ceil(lane(needed, l) / substep_size));
+    return static_cast<unsigned int>(std::min(n, double(most)));
+  }
+
+  /// One part. @return dissipated energy [J/m^3], with the mean stress, so that stored and dissipated energy add up to the work.
+  template <typename Number>
+  Number step(SymTensor<Number> &stress, const SymTensor<Number> &strain, const double dt, const Number &K,
+              const Number &G, History<Number> &history) const
+  {
+    Number volume_strain = trace(strain), closing = Number(0.);
+    if (gap_closure && any_of(history.separation > Number(0.)))
+      {
+        closing = min(max(Number(-volume_strain), Number(0.)), history.separation);
+        history.separation -= closing;
+        volume_strain += closing;
+      }
+    const SymTensor<Number> old = stress;
+    const Trial<Number>     t   = trial(stress, strain, volume_strain, K, G);
+
+    CapFlow flow;
+    flow.rate_independent = viscosity != Viscosity::perzyna;
+    flow.fluidity_dt      = fluidity * dt;
+    flow.f0               = overstress;
+    flow.exponent         = exponent;
+    CapReturn<Number> result(surface, flow, K, G);
+    result.solve(t.I1, t.j, history.cap_junction);
+    if (viscosity == Viscosity::duvaut_lions)
+      {
+        const Number w = Number(dt / (relaxation_time + dt));
+        result.I1      = t.I1 + w * (result.I1 - t.I1);
+        result.j       = t.j + w * (result.j - t.j);
+        if (any_of(result.xi > history.cap_junction))
+          {
+            const Number X_n = surface.cap(history.cap_junction).X;
+            result.xi =
+              surface.junction(Number(X_n + w * (surface.cap(result.xi).X - X_n)), history.cap_junction, result.xi);
+          }
+      }
+    history.cap_junction = result.xi;
+
+    const Number ratio  = result.j / t.j;
+    stress              = t.s * ratio;
+    const Number mean   = result.I1 * Number(1. / 3.);
+    const Number opened = (result.I1 - t.I1) / (Number(3.) * K); // inelastic volume strain
+    for (int k = 0; k < 3; ++k)
+      stress[k] -= mean;
+    if (gap_closure)
+      history.separation += select(Mask<Number>(result.I1 < Number(0.) && opened > Number(0.)), opened, Number(0.));
+
+    // mean stress : inelastic strain
+    const Number p_mean = Number(0.5) * (pressure(old) + mean);
+    const auto   s_mean = (deviator(old) + t.s * ratio) * Number(0.5);
+    return contract(s_mean, t.s) * (Number(1.) - ratio) / (Number(2.) * G) - p_mean * (opened - closing);
+  }
+};
+
+extern template struct ViscoplasticCap<ConstantStiffness>;
+} // namespace Arenite

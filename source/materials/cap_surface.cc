@@ -1,0 +1,78 @@
+#include <arenite/materials/cap_surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Arenite
+{
+std::string CapSurface::finalize()
+{
+  std::ostringstream problem;
+  F0       = alpha - gamma;
+  F0_slope = beta * gamma + theta;
+  if (!(alpha > gamma && gamma >= 0.))
+    {
+      problem << "failure surface: alpha = " << alpha << " Pa must exceed gamma = " << gamma
+              << " Pa; a cohesionless apex is not supported, use a small alpha - gamma";
+      return problem.str();
+    }
+  if (!(F0_slope > 0.))
+    return "failure surface: beta gamma + theta must be positive";
+  const double largest_tension = F0 / (2. * F0_slope);
+  if (!(tension_limit > 0. && tension_limit < largest_tension))
+    {
+      problem << "tension limit T = " << tension_limit
+              << " Pa must satisfy 0 < T < (alpha - gamma)/(2 (beta gamma + theta)) = " << largest_tension << " Pa";
+      return problem.str();
+    }
+
+  // the ellipse through (-T, 0) that meets (0, F0) with the slope of the failure surface
+  const double T = tension_limit, n = F0 - 2. * F0_slope * T;
+  tension_center = F0_slope * T * T / n;
+  tension_axis   = std::sqrt(F0) * (F0 - F0_slope * T) / std::sqrt(n);
+  tension_ratio  = T / std::sqrt(F0 * n);
+
+  const double h    = axis_ratio * F0_slope;
+  smallest_position = axis_ratio * F0 * (h + std::sqrt(1. + h * h));
+  // junction L unique: dX/dL > 0; beyond beta L = 30 the exponential is gone
+  for (unsigned int i = 0; i <= 3000; ++i)
+    {
+      const double L = beta > 0. ? i * 0.01 / beta : 0.;
+      const auto   F = failure(L);
+      if (!(1. + axis_ratio * axis_ratio * (F.slope * F.slope + F.value * F.curvature) > 0.))
+        {
+          problem << "the junction of cap and failure surface is not unique near L = " << L
+                  << " Pa: reduce the cap axis ratio R, beta or gamma";
+          return problem.str();
+        }
+    }
+  if (initial_position < smallest_position && !small_cap_rule)
+    {
+      problem << "initial cap position X0 = " << initial_position << " Pa is below X_min = " << smallest_position
+              << " Pa: the cap would start inside of the tension cut-off; raise X0 or set 'Small cap rule = true'";
+      return problem.str();
+    }
+  return "";
+}
+
+double CapSurface::junction(const double X) const
+{
+  if (X <= smallest_position)
+    return X - smallest_position;
+  double low = 0., high = X, L = 0.5 * X;
+  for (unsigned int i = 0; i < 200; ++i)
+    {
+      const auto   c        = cap(L);
+      const double r        = c.X - X;
+      (r > 0. ? high : low) = L;
+      double next           = L - r / c.dX;
+      if (!(next >= low && next <= high))
+        next = 0.5 * (low + high);
+      if (std::abs(next - L) <= 1e-16 * X)
+        return next;
+      L = next;
+    }
+  return L;
+}
+} // namespace Arenite

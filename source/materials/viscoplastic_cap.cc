@@ -1,0 +1,62 @@
+#include <arenite/materials/viscoplastic_cap.h>
+
+#include <cmath>
+
+namespace Arenite
+{
+template <typename Stiffness>
+void ViscoplasticCap<Stiffness>::declare_parameters(Parameters &parameters)
+{
+  path = parameters.current_path();
+  stiffness.declare_parameters(parameters);
+  parameters.add_quantity("Failure alpha", surface.alpha, "Pa", positive,
+                          "Shear strength sqrt(J2) = alpha - gamma exp(-beta I1) + theta I1. Larger: stronger.");
+  parameters.add_quantity("Failure gamma", surface.gamma, "Pa", non_negative,
+                          "Strength that is missing at I1 = 0; below alpha. Larger: weaker at low pressure.");
+  parameters.add_quantity("Failure beta", surface.beta, "1/Pa", non_negative,
+                          "Decay of gamma with I1. Larger: full strength at lower pressure.");
+  parameters.add_quantity("Failure theta", surface.theta, "-", non_negative,
+                          "Friction: slope of the failure surface at high I1. Larger: more strength under pressure.");
+  parameters.add_quantity("Cap axis ratio R", surface.axis_ratio, "-", positive,
+                          "Length of the cap along I1 over its height. Larger: a flatter cap that begins earlier.");
+  parameters.add_quantity("Initial cap position X0", surface.initial_position, "Pa", positive,
+                          "I1 of first compaction: three times the yield pressure. Larger: stiffer at first.");
+  parameters.add_quantity("Hardening rate D", surface.hardening_rate, "1/Pa", positive,
+                          "Compaction per I1: k = W D (X - X0)/(1 + D (X - X0)). Larger: compacts at lower pressure.");
+  parameters.add_quantity("Hardening limit W", surface.hardening_limit, "-", {0., 1., true, true},
+                          "Largest compactive volume strain, of the closed pores. Larger: absorbs more.");
+  parameters.add_quantity("Tension limit T", surface.tension_limit, "Pa", positive,
+                          "Tensile strength on the I1 axis: three times the mean tensile stress. Larger: later spall.");
+  parameters.add_flag("Small cap rule", surface.small_cap_rule,
+                      "Allow X0 below X_min, with a reduced axis ratio until the cap has grown.");
+  parameters.add_choice("Viscosity", viscosity_name, {"Perzyna", "Duvaut-Lions", "none"},
+                        "Overstress law; none is the rate-independent cap.");
+  parameters.add_quantity("Fluidity eta", fluidity, "1/s", non_negative,
+                          "Perzyna: rate of flow at the overstress f0. 0 is elastic; larger: less viscous.");
+  parameters.add_quantity("Overstress scale f0", overstress, "Pa", positive,
+                          "Perzyna: overstress at which flow has the rate eta. Larger: more viscous.");
+  parameters.add_quantity("Overstress exponent N", exponent, "-", {1., 20., false, false},
+                          "Perzyna: eta <f/f0>^N. Larger: slower below f0 and faster above.");
+  parameters.add_quantity("Relaxation time", relaxation_time, "s", non_negative,
+                          "Duvaut-Lions: time in which stress relaxes towards the rate-independent state.");
+  parameters.add_quantity("Substep size", substep_size, "-", non_negative,
+                          "Strain of a step, over that which crosses the surface, above which the step is divided. "
+                          "Smaller: more accurate and slower; 0 never divides.");
+  parameters.add_flag("Gap closure", gap_closure,
+                      "Volume strain of the tension cut-off must be closed before the soil can be compressed again.");
+}
+
+template <typename Stiffness>
+void ViscoplasticCap<Stiffness>::finalize(const Parameters &parameters)
+{
+  stiffness.finalize(parameters);
+  viscosity = viscosity_name == "Perzyna" ? Viscosity::perzyna
+                                          : (viscosity_name == "none" ? Viscosity::none : Viscosity::duvaut_lions);
+  if (const std::string problem = surface.finalize(); !problem.empty())
+    parameters.refuse(path, problem);
+}
+
+template struct ViscoplasticCap<ConstantStiffness>;
+static_assert(IsMaterialLaw<ViscoplasticCap<ConstantStiffness>>::value);
+static_assert(IsMaterialLaw<ViscoplasticCap<ConstantStiffness>, Lanes<native_lanes>>::value);
+} // namespace Arenite
