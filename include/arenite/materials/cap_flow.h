@@ -65,14 +65,15 @@ struct CapFlow
 ///
 /// @tparam Number double, lanes, or a differentiable number: values are then found with doubles, and one more Newton step brings
 /// the derivatives of the implicit function.
-template <typename Number>
+/// @tparam Surface  CapSurface; GeologicCapSurface uses the pieces on_failure_surface() and harden() only
+template <typename Number, typename Surface = CapSurface>
 class CapReturn
 {
 public:
   using V = Value<Number>;
   using M = Mask<Number>;
 
-  CapReturn(const CapSurface &surface, const CapFlow &flow, const Number &K, const Number &G)
+  CapReturn(const Surface &surface, const CapFlow &flow, const Number &K, const Number &G)
     : surface(surface)
     , flow(flow)
     , K(K)
@@ -133,8 +134,7 @@ public:
       harden(hardens, I1_trial, j_trial, xi_n, cap);
   }
 
-private:
-  using Cap = typename CapSurface::template Cap<Number>;
+  using Cap = typename Surface::template Cap<Number>;
   struct Point
   {
     Number I1, j;
@@ -160,9 +160,10 @@ private:
   {
     const auto      r = flow.rates(t);
     EllipseState<N> s;
-    s.axis_and_f = b + r.f;
-    s.mu         = r.multiplier / s.axis_and_f;
-    const N dmu  = (r.d_multiplier * s.axis_and_f - r.multiplier * r.df) / (s.axis_and_f * s.axis_and_f);
+    s.axis_and_f     = b + r.f;
+    const N per_axis = N(1.) / s.axis_and_f;
+    s.mu             = r.multiplier * per_axis;
+    const N dmu      = (r.d_multiplier - s.mu * r.df) * per_axis;
     const N gj = N(1.) / (N(1.) + G * s.mu), gv = N(1.) / (N(1.) + kappa * s.mu);
     const N j = j_trial * gj, v = v_trial * gv;
     s.Q        = square_root(N(j * j + v * v));
@@ -311,8 +312,8 @@ private:
   /// Where neither side has a solution: I1 = L and flow = w cap + (1 - w) other, 0 <= w <= 1; the other side is the failure
   /// surface, or the tension cut-off where the cap begins at I1 = 0. One equation in j, by bisection; rare, so lane by lane.
   template <typename N>
-  static N slide_residual(const CapSurface &surface, const CapFlow &flow, const N &j, const N &I1_trial,
-                          const N &j_trial, const typename CapSurface::template Cap<N> &cap, const N &K_n, const N &G_n)
+  static N slide_residual(const Surface &surface, const CapFlow &flow, const N &j, const N &I1_trial, const N &j_trial,
+                          const typename Surface::template Cap<N> &cap, const N &K_n, const N &G_n)
   {
     const auto multiplier = [&](const N &f) {
       // for a rate-independent material the sliding state lies on the surface, where both sides agree
@@ -395,16 +396,18 @@ private:
   HardeningState<N> hardening_state(const N &t, const N &xi_n1, const N &I1_trial, const N &j_trial, const N &X_n,
                                     const N &K_n, const N &G_n) const
   {
+    // divisions are what this costs: one for each denominator
     const auto cap  = surface.cap(xi_n1);
     const auto rate = flow.rates(t);
-    const N    size = cap.b + rate.f, mu = rate.multiplier / size;
-    const N mu_t = (rate.d_multiplier * size - rate.multiplier * rate.df) / (size * size), mu_x = -mu / size * cap.db;
-    const N kappa = N(9.) * K_n / (cap.R * cap.R), kappa_x = N(-2.) * kappa * cap.dR / cap.R;
-    const N s = N(1.) + kappa * mu, g = N(1.) / (N(1.) + G_n * mu);
-    const N j = j_trial * g, v = (I1_trial - cap.M) / (cap.R * s), Q = square_root(N(j * j + v * v));
-    const N j_mu = -j * G_n * g, v_mu = -v * kappa / s;
-    const N v_x  = -cap.dM / (cap.R * s) - v * cap.dR / cap.R - v * kappa_x * mu / s;
-    const N Q_mu = (j * j_mu + v * v_mu) / Q;
+    const N    size = cap.b + rate.f, per_size = N(1.) / size, mu = rate.multiplier * per_size;
+    const N    mu_t = (rate.d_multiplier - mu * rate.df) * per_size, mu_x = -mu * per_size * cap.db;
+    const N    per_R = N(1.) / cap.R, kappa = N(9.) * K_n * per_R * per_R, kappa_x = N(-2.) * kappa * cap.dR * per_R;
+    const N    per_s = N(1.) / (N(1.) + kappa * mu), g = N(1.) / (N(1.) + G_n * mu);
+    const N    j = j_trial * g, v = (I1_trial - cap.M) * per_R * per_s, Q = square_root(N(j * j + v * v)),
+            per_Q = N(1.) / Q;
+    const N j_mu = -j * G_n * g, v_mu = -v * kappa * per_s;
+    const N v_x  = -(cap.dM * per_R + v * kappa_x * mu) * per_s - v * cap.dR * per_R;
+    const N Q_mu = (j * j_mu + v * v_mu) * per_Q;
 
     HardeningState<N> h;
     h.I1   = cap.M + cap.R * v;
@@ -413,7 +416,7 @@ private:
     h.r1   = Q - size;
     h.r2   = N(3.) * K_n * surface.compaction(cap.X, X_n) - (I1_trial - h.I1);
     h.a11  = Q_mu * mu_t - rate.df;
-    h.a12  = Q_mu * mu_x + v * v_x / Q - cap.db;
+    h.a12  = Q_mu * mu_x + v * v_x * per_Q - cap.db;
     h.a21  = cap.R * v_mu * mu_t;
     h.a22  = N(3.) * K_n * surface.compaction_slope(cap.X) * cap.dX + cap.dM + cap.dR * v + cap.R * (v_mu * mu_x + v_x);
     return h;
@@ -438,7 +441,8 @@ private:
         ++iterations;
         const auto h           = hardening_state<V>(t, x, I_t, j_t, X_n, K_v, G_v);
         const V    determinant = h.a11 * h.a22 - h.a12 * h.a21;
-        const V    dt = (h.r2 * h.a12 - h.r1 * h.a22) / determinant, dx = (h.r1 * h.a21 - h.r2 * h.a11) / determinant;
+        const V    inverse     = V(1.) / determinant;
+        const V    dt = (h.r2 * h.a12 - h.r1 * h.a22) * inverse, dx = (h.r1 * h.a21 - h.r2 * h.a11) * inverse;
         const M    converged =
           (absolute(h.r1) < V(1e-15) * h.size && absolute(h.r2) < V(1e-15) * absolute(I_t)) ||
           (!(absolute(dt) > V(1e-13) * absolute(t)) && !(absolute(dx) > V(1e-15) * (absolute(x) + scale)));
@@ -483,10 +487,10 @@ private:
   std::pair<double, double> harden_by_brackets(const double I1_trial, const double j_trial, const double xi_n,
                                                const double K_l, const double G_l) const
   {
-    CapReturn<double> scalar(surface, flow, K_l, G_l);
-    const double      X_n   = surface.cap(xi_n).X;
-    const auto        solve = [&](const double x) { return scalar.multiplier_on_cap(x, I1_trial, j_trial); };
-    const auto        r2    = [&](const double x) {
+    CapReturn<double, Surface> scalar(surface, flow, K_l, G_l);
+    const double               X_n   = surface.cap(xi_n).X;
+    const auto                 solve = [&](const double x) { return scalar.multiplier_on_cap(x, I1_trial, j_trial); };
+    const auto                 r2    = [&](const double x) {
       return scalar.template hardening_state<double>(solve(x), x, I1_trial, j_trial, X_n, K_l, G_l).r2;
     };
     double low = xi_n, high = std::max(I1_trial, xi_n + 1e-9 * surface.smallest_position), r_low = r2(low),
@@ -539,11 +543,11 @@ private:
                 });
   }
 
-  template <typename>
+  template <typename, typename>
   friend class CapReturn;
 
-  const CapSurface &surface;
-  const CapFlow    &flow;
-  const Number      K, G;
+  const Surface &surface;
+  const CapFlow &flow;
+  const Number   K, G;
 };
 } // namespace Arenite

@@ -79,16 +79,17 @@ struct CapSurface
     const Number          L     = select(small, Number(0.), xi);
     const Failure<Number> F     = failure(L);
     const Number          R = Number(axis_ratio), h = R * F.slope, c = square_root(Number(Number(1.) + h * h));
-    const Number          e = h + c, D1 = Number(1.) + h * h + R * R * F.value * F.curvature;
+    const Number          e = h + c, per_c = Number(1.) / c;
+    const Number          D1 = Number(1.) + h * h + R * R * F.value * F.curvature;
     Cap<Number>           cap;
     cap.X  = L + R * F.value * e;
     cap.L  = L;
     cap.M  = L + R * F.value * h;
     cap.b  = F.value * c;
     cap.R  = R;
-    cap.dX = e / c * D1;
+    cap.dX = e * per_c * D1;
     cap.dM = D1;
-    cap.db = F.slope / c * D1;
+    cap.db = F.slope * per_c * D1;
     cap.dR = Number(0.);
     if (any_of(small))
       {
