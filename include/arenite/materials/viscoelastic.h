@@ -1,0 +1,137 @@
+#pragma once
+
+#include <arenite/materials/elastic_constants.h>
+#include <arenite/materials/material_law.h>
+
+#include <string>
+
+namespace Arenite
+{
+/// Linear viscoelastic solid: an isotropic spring C (the block's elastic constants) and a branch with the same Poisson ratio.
+///
+///   Maxwell                 sigma + tau sigma_dot = tau C : eps_dot              C is the instantaneous stiffness
+///   Kelvin-Voigt            sigma = C : (eps + tau eps_dot)                      C is the relaxed stiffness
+///   standard linear solid   sigma = C : eps + h,  h + tau h_dot = tau m C : eps_dot     C relaxed, m = branch ratio
+///
+/// The branch is integrated exactly for a strain rate that is constant over the step, so that the step is bounded by accuracy in
+/// the load alone: h_{n+1} = h_n e^{-dt/tau} + m C : Delta eps (tau/dt) (1 - e^{-dt/tau}). Fung (1977); Roger (2015), section 2.1.
+///
+/// The branch stress is a tensor of the frame of the strain increments: small strain, or small rotations.
+struct Viscoelastic
+{
+  static constexpr const char *name        = "viscoelastic";
+  static constexpr const char *description = "Maxwell, Kelvin-Voigt or standard linear solid, exact in the branch.";
+
+  enum class Model
+  {
+    maxwell,
+    kelvin_voigt,
+    standard
+  };
+
+  template <typename Number>
+  struct History
+  {
+    SymTensor<Number> branch; ///< h [Pa]; Kelvin-Voigt: the viscous stress
+
+    template <typename F>
+    void for_each(F &&f)
+    {
+      constexpr const char *names[] = {"branch stress xx", "branch stress yy", "branch stress zz",
+                                       "branch stress xy", "branch stress xz", "branch stress yz"};
+      for (int k = 0; k < 6; ++k)
+        f(names[k], branch[k]);
+    }
+  };
+
+  void declare_parameters(Parameters &);
+  void finalize(const Parameters &);
+
+  double          density() const { return spring.density; }
+  History<double> initial_history() const { return {}; }
+
+  /// Of the fastest waves: the branch is stiff for them. Kelvin-Voigt has no fastest wave, see stable_step().
+  double wave_speed_bound() const { return spring.p_wave_speed() * std::sqrt(instantaneous()); }
+
+  /// Largest stable step of central differences for waves of length 2 h [s]: (2/omega) (sqrt(1 + xi^2) - xi), omega = 2 c/h. A
+  /// Kelvin-Voigt solid has xi = tau omega/2, so that the step falls with h^2 on fine meshes.
+  double stable_step(const double h) const
+  {
+    const double omega = 2. * wave_speed_bound() / h,
+                 xi    = model == Model::kelvin_voigt ? 0.5 * relaxation_time * omega : 0.;
+    return 2. / omega * (std::sqrt(1. + xi * xi) - xi);
+  }
+
+  template <typename Number>
+  Response<Number> update(const SymTensor<Number> &stress_n, const PointIncrement<Number> &increment,
+                          History<Number> &history) const
+  {
+    const double            x = increment.dt / relaxation_time, E = std::exp(-x);
+    const SymTensor<Number> force = stiffness_times(increment.strain); // C : Delta eps
+    const SymTensor<Number> h_n   = model == Model::maxwell ? stress_n : history.branch;
+    SymTensor<Number>       h;
+    Number                  dissipated;
+    if (model == Model::kelvin_voigt)
+      {
+        h          = increment.dt > 0. ? force * Number(1. / x) : h_n;
+        dissipated = contract(h, increment.strain);
+      }
+    else
+      {
+        // towards a = m C : eps_dot tau, the branch stress of a strain rate that lasts for ever
+        const double m    = model == Model::maxwell ? 1. : branch_ratio;
+        const double rise = x > 1e-8 ? -std::expm1(-x) / x : 1. - 0.5 * x; // (1 - e^-x)/x
+        h                 = h_n * Number(E) + force * Number(m * rise);
+        // integral of h : (m C)^-1 : h / tau over the step
+        const SymTensor<Number> a = increment.dt > 0. ? force * Number(m / x) : SymTensor<Number>();
+        const SymTensor<Number> b = h_n - a;
+        dissipated                = Number(1. / m) *
+                     (compliance_product(a, a) * Number(x) + Number(2. * -std::expm1(-x)) * compliance_product(a, b) +
+                      Number(-0.5 * std::expm1(-2. * x)) * compliance_product(b, b));
+      }
+
+    const SymTensor<Number> relaxed_n = model == Model::maxwell ? SymTensor<Number>() : stress_n - h_n;
+    const SymTensor<Number> relaxed   = model == Model::maxwell ? relaxed_n : relaxed_n + force;
+    Response<Number>        response;
+    response.stress = relaxed + h;
+    response.stored = Number(0.5) * compliance_product(relaxed, relaxed);
+    if (model != Model::kelvin_voigt)
+      response.stored += Number(0.5 / (model == Model::maxwell ? 1. : branch_ratio)) * compliance_product(h, h);
+    response.dissipated = dissipated;
+    response.wave_speed = square_root(
+      Number(Number(instantaneous() * (spring.bulk_modulus + 4. / 3. * spring.shear_modulus)) / increment.density));
+    history.branch = h;
+    return response;
+  }
+
+  template <typename Number>
+  void after_transfer(SymTensor<Number> &, History<Number> &) const
+  {}
+
+  ElasticConstants constants;
+  LinearElastic    spring;
+  std::string      model_name      = "standard linear solid";
+  Model            model           = Model::standard;
+  double           relaxation_time = 1.; ///< tau [s]
+  double           branch_ratio    = 1.; ///< m [-]
+
+private:
+  /// Stiffness for infinitely fast loading over C.
+  double instantaneous() const { return model == Model::standard ? 1. + branch_ratio : 1.; }
+
+  template <typename Number>
+  SymTensor<Number> stiffness_times(const SymTensor<Number> &strain) const
+  {
+    return deviator(strain) * Number(2. * spring.shear_modulus) +
+           spherical(Number(Number(spring.bulk_modulus) * trace(strain)));
+  }
+
+  /// a : C^-1 : b
+  template <typename Number>
+  Number compliance_product(const SymTensor<Number> &a, const SymTensor<Number> &b) const
+  {
+    return contract(deviator(a), deviator(b)) * Number(0.5 / spring.shear_modulus) +
+           trace(a) * trace(b) * Number(1. / (9. * spring.bulk_modulus));
+  }
+};
+} // namespace Arenite
