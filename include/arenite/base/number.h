@@ -109,6 +109,11 @@ struct NumberFunctions
   static double value(const V &a) { return a.val(); }
   static V      square_root(const V &a) { return sqrt(a); }
   static V      exponential(const V &a) { return exp(a); }
+  static V      exponential_minus_one(const V &a)
+  {
+    // value without cancellation, derivative e^a
+    return exp(a) + (std::expm1(value(a)) - std::exp(value(a)));
+  }
   static V      logarithm(const V &a) { return log(a); }
   static V      power(const V &a, const double n) { return pow(a, n); }
 };
@@ -119,6 +124,7 @@ struct NumberFunctions<double>
   static double value(const double a) { return a; }
   static double square_root(const double a) { return std::sqrt(a); }
   static double exponential(const double a) { return std::exp(a); }
+  static double exponential_minus_one(const double a) { return std::expm1(a); }
   static double logarithm(const double a) { return std::log(a); }
   static double power(const double a, const double n) { return std::pow(a, n); }
 };
@@ -129,6 +135,7 @@ struct NumberFunctions<double>
 extern "C"
 {
   __m512d _ZGVeN8v_exp(__m512d) __attribute__((const));
+  __m512d _ZGVeN8v_expm1(__m512d) __attribute__((const));
   __m512d _ZGVeN8v_log(__m512d) __attribute__((const));
   __m512d _ZGVeN8vv_pow(__m512d, __m512d) __attribute__((const));
 }
@@ -136,6 +143,7 @@ extern "C"
 extern "C"
 {
   __m256d _ZGVdN4v_exp(__m256d) __attribute__((const));
+  __m256d _ZGVdN4v_expm1(__m256d) __attribute__((const));
   __m256d _ZGVdN4v_log(__m256d) __attribute__((const));
   __m256d _ZGVdN4vv_pow(__m256d, __m256d) __attribute__((const));
 }
@@ -161,6 +169,20 @@ struct NumberFunctions<V, std::enable_if_t<is_lanes<V>>>
     else
 #endif
       return V([&](auto l) { return std::exp(double(a[l])); });
+  }
+  static V exponential_minus_one(const V &a)
+  {
+#ifdef ARENITE_LIBMVEC
+#  if defined(__AVX512F__)
+    if constexpr (V::size() == 8)
+      return V(_ZGVeN8v_expm1(static_cast<__m512d>(a)));
+    else
+#  endif
+      if constexpr (V::size() == 4)
+      return V(_ZGVdN4v_expm1(static_cast<__m256d>(a)));
+    else
+#endif
+      return V([&](auto l) { return std::expm1(double(a[l])); });
   }
   static V logarithm(const V &a)
   {
@@ -210,6 +232,12 @@ template <typename V>
 ARENITE_INLINE V exponential(const V &a)
 {
   return NumberFunctions<V>::exponential(a);
+}
+/// e^a - 1 without cancellation near zero.
+template <typename V>
+ARENITE_INLINE V exponential_minus_one(const V &a)
+{
+  return NumberFunctions<V>::exponential_minus_one(a);
 }
 template <typename V>
 ARENITE_INLINE V logarithm(const V &a)

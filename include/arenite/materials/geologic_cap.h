@@ -80,10 +80,11 @@ struct GeologicCapSurface
     return cap;
   }
 
+  /// k(X) - k(X_n) without cancellation.
   template <typename Number>
   Number compaction(const Number &X, const Number &X_n) const
   {
-    return Number(hardening_limit) * (decay(X_n) - decay(X));
+    return Number(-hardening_limit) * decay(X_n) * exponential_minus_one(Number(Number(-hardening_rate) * (X - X_n)));
   }
   template <typename Number>
   Number compaction_slope(const Number &X) const

@@ -164,15 +164,20 @@ private:
     constexpr unsigned int most = 1000;
     if (substep_size == 0.)
       return 1;
-    using V             = Value<Number>;
-    const V    volume   = value_of(trace(increment.strain));
-    const V    shear    = value_of(square_root(Number(second_invariant(deviator(increment.strain)) + Number(1e-60))));
-    const V    I1       = value_of(Number(-trace(stress)));
-    const V    strength = max(surface.failure(I1).value, V(surface.F0));
-    const V    K_v = value_of(K), G_v = value_of(G), xi = value_of(history.cap_junction);
-    const auto cap    = surface.cap(xi);
-    const V    needed = max(V(V(2.) * shear * G_v / strength), V(V(3.) * absolute(volume) * K_v / cap.X));
-    if (!any_of(needed > V(substep_size)))
+    using V        = Value<Number>;
+    const V volume = V(3.) * absolute(value_of(trace(increment.strain))) * value_of(K);
+    const V shear =
+      V(2.) * value_of(square_root(Number(second_invariant(deviator(increment.strain)) + Number(1e-60)))) * value_of(G);
+    // bounds of strength and X from below that cost nothing, before the surface is asked
+    const V xi = value_of(history.cap_junction), c = V(substep_size);
+    const V near_X =
+      select(xi < V(0.), V(V(surface.smallest_position) + xi), V(V(surface.axis_ratio * surface.F0) + xi));
+    if (!any_of(shear > c * V(surface.F0) || volume > c * near_X))
+      return 1;
+    const V    strength = max(surface.failure(value_of(Number(-trace(stress)))).value, V(surface.F0));
+    const auto cap      = surface.cap(xi);
+    const V    needed   = max(V(shear / strength), V(volume / cap.X));
+    if (!any_of(needed > c))
       return 1;
     const auto    t      = trial(stress, increment.strain, trace(increment.strain), K, G);
     const Mask<V> yields = surface.yield_function(value_of(t.I1), value_of(t.j), cap) > V(0.);
