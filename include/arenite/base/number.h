@@ -79,6 +79,24 @@ inline void set_lane(V &x, const int l, const double value)
     x = value;
 }
 
+/// The W doubles that begin at @p p, which needs no alignment; and back.
+template <typename V>
+ARENITE_INLINE V load(const double *p)
+{
+  if constexpr (is_lanes<V>)
+    return V(p, std::experimental::element_aligned);
+  else
+    return V(*p);
+}
+template <typename V>
+ARENITE_INLINE void store(const V &a, double *p)
+{
+  if constexpr (is_lanes<V>)
+    a.copy_to(p, std::experimental::element_aligned);
+  else
+    *p = a;
+}
+
 /// @p a where @p mask holds, @p b elsewhere.
 template <typename V>
 ARENITE_INLINE V select(const Mask<V> &mask, const V &a, const V &b)

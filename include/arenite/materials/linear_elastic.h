@@ -36,5 +36,18 @@ struct LinearElastic
   {
     return (3. * bulk_modulus - 2. * shear_modulus) / (6. * bulk_modulus + 2. * shear_modulus);
   }
+
+  /// f(name, value, unit) for the log.
+  template <typename F>
+  void for_each_constant(F &&f) const
+  {
+    f("Density", density, "kg/m^3");
+    f("Bulk modulus", bulk_modulus, "Pa");
+    f("Shear modulus", shear_modulus, "Pa");
+    f("Young modulus", young_modulus(), "Pa");
+    f("Poisson ratio", poisson_ratio(), "-");
+    f("P-wave speed", p_wave_speed(), "m/s");
+    f("S-wave speed", s_wave_speed(), "m/s");
+  }
 };
 } // namespace Arenite

@@ -66,7 +66,12 @@ struct NoHistory
 //     double wave_speed_bound() const;                             // [m/s], over all states up to the law's valid range
 //     template <typename Number>
 //     void after_transfer(SymTensor<Number> &stress, History<Number> &) const;   // back to an admissible state
+//
+//     template <typename F>
+//     void for_each_constant(F &&f) const;                         // may be left out: f(name, value, unit) of what the log shows
 //   };
+//
+// A new law is complete with its line in law_types.h.
 //
 // Rules. `Number` is double, lanes or a differentiable number: no `if` on a Number, select() instead. Pressure is positive in
 // compression, stress and strain in tension. Branches that are the same for all points (a parameter, dt) are plain `if`s.

@@ -35,6 +35,11 @@ struct ConstantStiffness
   template <typename Number>
   void after_transfer(History<Number> &) const
   {}
+  template <typename F>
+  void for_each_constant(F &&f) const
+  {
+    elastic.for_each_constant(f);
+  }
 
   ElasticConstants constants;
   LinearElastic    elastic;
@@ -121,6 +126,20 @@ struct ViscoplasticCap
     history.cap_junction = max(history.cap_junction, Number(surface.junction(surface.initial_position)));
     history.separation   = max(history.separation, Number(0.));
     stiffness.after_transfer(history.stiffness);
+  }
+
+  /// f(name, value, unit) for the log.
+  template <typename F>
+  void for_each_constant(F &&f) const
+  {
+    stiffness.for_each_constant(f);
+    const auto cap = surface.cap(surface.junction(surface.initial_position));
+    f("Strength at I1 = 0", surface.F0, "Pa");
+    f("Largest tension limit T_max", surface.F0 / (2. * surface.F0_slope), "Pa");
+    f("Smallest cap position X_min", surface.smallest_position, "Pa");
+    f("Initial junction of cap and failure surface L", cap.L, "Pa");
+    f("Initial centre of the cap M", cap.M, "Pa");
+    f("Initial height of the cap b", cap.b, "Pa");
   }
 
   Stiffness   stiffness;

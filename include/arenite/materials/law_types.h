@@ -1,0 +1,15 @@
+#pragma once
+
+#include <arenite/materials/linear_elastic_law.h>
+#include <arenite/materials/viscoplastic_cap.h>
+
+#include <tuple>
+
+namespace Arenite
+{
+/// Every law that `set Law` can choose, in the order of the manual. A line here registers a law for scenes, bench and manual, and
+/// puts it under the tests of the contract.
+using LawTypes = std::tuple<LinearElasticLaw,                  //
+                            ViscoplasticCap<ConstantStiffness> //
+                            >;
+} // namespace Arenite
