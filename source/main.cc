@@ -173,6 +173,18 @@ int main(int argc, char **argv)
     ->type_name("N")
     ->check(CLI::Range(2, 12));
 
+  CLI::App *material = add_command("material", "Test a law at one point, without a mesh", Arenite::material, true);
+  material->add_option("--strain-path", options.strain_path, "Follow the strains of this file instead of the test")
+    ->type_name("FILE.csv");
+  material->add_option("--substeps", options.steps_per_row, "Steps of the law per row of the result")
+    ->type_name("N")
+    ->check(CLI::Range(1, 100000000));
+  material->add_option("--output", options.output, "Result (default: output/<name of the file>.csv)")
+    ->type_name("FILE.csv");
+  material
+    ->add_option("--sweep", options.sweep, "One run for each of several values, \"Section/Entry=first:last:count\"")
+    ->type_name("ENTRY=FIRST:LAST:COUNT");
+
   try
     {
       app.parse(argc, argv);

@@ -1,3 +1,5 @@
+#include <arenite/materials/law_list.h>
+#include <arenite/materials/material_test.h>
 #include <arenite/simulation/commands.h>
 #include <arenite/simulation/scene.h>
 
@@ -76,6 +78,31 @@ std::string complete_manual()
         const auto section = entries.section("Mesh");
         geometry->declare_parameters(entries);
       }
+      text += "\nEntries of `set Type = " + name + "`:\n\n" + entries.manual();
+    }
+
+  text += "\n# Laws\n\nEntries of a block, `subsection Materials / <block>`, beside those above. Scenes take `linear "
+          "elastic`, "
+          "`arenite material` takes all.\n\n" +
+          material_laws(1).catalogue();
+  for (const std::string &name : material_laws(1).names())
+    {
+      Parameters entries;
+      const auto law = material_laws(1).make(name);
+      {
+        const auto section = entries.section("Materials");
+        law->declare_parameters(entries);
+      }
+      text += "\nEntries of `set Law = " + name + "`:\n\n" + entries.manual();
+    }
+
+  text += "\n# Tests of a material\n\n`arenite material FILE.prm` does one of these to one point:\n\n" +
+          MaterialTest::catalogue();
+  for (const std::string &name : MaterialTest::names())
+    {
+      Parameters   entries = Parameters::from_text("subsection Test\nset Type = " + name + "\nend\n", "manual");
+      MaterialTest test;
+      test.declare_parameters(entries);
       text += "\nEntries of `set Type = " + name + "`:\n\n" + entries.manual();
     }
 

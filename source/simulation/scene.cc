@@ -1,5 +1,6 @@
 #include <arenite/loads/body_force.h>
 #include <arenite/loads/nodal_force.h>
+#include <arenite/simulation/material_bench.h>
 #include <arenite/simulation/scene.h>
 
 #include <map>
@@ -39,11 +40,14 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
     for (const std::string &name : block_names)
       {
         blocks.emplace_back();
-        Block &block          = blocks.back();
-        block.name            = name;
-        block.material_id     = blocks.size() - 1;
-        const auto subsection = parameters.section(name);
-        parameters.add_choice("Law", block.law, {"linear elastic"}, "Constitutive law.");
+        Block &block                 = blocks.back();
+        block.name                   = name;
+        block.material_id            = blocks.size() - 1;
+        const auto        subsection = parameters.section(name);
+        const std::string law        = declare_law(parameters, block.law);
+        if (block.law != "linear elastic")
+          parameters.refuse(law, "runs on the bench (arenite material FILE.prm) and not yet in a mesh; a scene takes "
+                                 "'linear elastic'.");
         parameters.add_integer("Material id", block.material_id, 0, 254,
                                "Id of the block's cells in the mesh; a single block takes all cells.");
         block.constants.declare_parameters(parameters);

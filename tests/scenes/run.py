@@ -9,6 +9,7 @@ Comment lines of the scene say what must hold:
     # SAME: 1e-6 receivers-array.csv                 the same for a table, column by column relative to its largest value
     # ARGS: --set "End time=1e-3"                    more arguments; {folder} is the folder of the scene
     # EXIT: 0                                        exit code
+    # COMMAND: material                              instead of run; the result is result.csv in the output directory
 
 CHECK and SAME know: run (the contents of run.json), errors (run["errors"]), log (log.txt as text), column("file.csv",
 "name"), rows("file.csv"), out (the output directory) and the functions of math. All measured values are printed.
@@ -78,7 +79,7 @@ def difference(a, b):
 def main(arenite, scene):
     scene = Path(scene).resolve()
     wanted = directives(scene)
-    unknown = set(wanted) - {"RANKS", "CHECK", "SAME", "ARGS", "EXIT", "LABEL", "TIMEOUT"}
+    unknown = set(wanted) - {"RANKS", "CHECK", "SAME", "ARGS", "EXIT", "COMMAND", "LABEL", "TIMEOUT"}
     if unknown:
         return [f"unknown comment lines: {', '.join(sorted(unknown))}"]
     if not {"CHECK", "SAME"} & set(wanted):
@@ -88,7 +89,9 @@ def main(arenite, scene):
     with tempfile.TemporaryDirectory(prefix="arenite-") as folder:
         for i, ranks in enumerate(int(r) for r in wanted.get("RANKS", ["1"])[0].split()):
             out = Path(folder) / f"output-{i}"
-            arguments = ["run", scene, "--output", out] + [
+            subcommand = wanted.get("COMMAND", ["run"])[0]
+            result = out / "result.csv" if subcommand == "material" else out
+            arguments = [subcommand, scene, "--output", result] + [
                 a.replace("{folder}", str(scene.parent)) for line in wanted.get("ARGS", []) for a in shlex.split(line)]
             done = subprocess.run(command([arenite] + arguments, ranks), cwd=folder, stdin=subprocess.DEVNULL,
                                   capture_output=True, text=True, errors="replace")

@@ -12,6 +12,8 @@ struct RunOptions
   std::string              output;
   bool                     overwrite = false, markdown = false;
   unsigned int             levels = 3;
+  std::string              strain_path, sweep; ///< of `material`
+  unsigned int             steps_per_row = 0;  ///< of `material`; 0: what the file says
 };
 
 // The commands of the binary; each returns the exit code.
@@ -19,6 +21,7 @@ int run(const RunOptions &);
 int check(const RunOptions &);
 int print_parameters(const RunOptions &);
 int converge(const RunOptions &);
+int material(const RunOptions &);
 
 /// Tables of every entry that a scene can have, for all models.
 std::string complete_manual();

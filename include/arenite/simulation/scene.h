@@ -20,7 +20,7 @@
 
 namespace Arenite
 {
-/// A material block: a name, the cells' material id, and its law.
+/// A material block: a name, the cells' material id, and its law, which is linear elastic in a mesh so far.
 struct Block
 {
   std::string      name, law = "linear elastic";
