@@ -29,7 +29,7 @@ double GeologicCapSurface::junction(const double X) const
     low -= std::abs(X) + smallest_position;
   for (unsigned int i = 0; i < 200 && high - low > 1e-16 * (std::abs(X) + smallest_position); ++i)
     {
-      const double middle                 = 0.5 * (low + high);
+      const double middle              = 0.5 * (low + high);
       (cap(middle).X > X ? high : low) = middle;
     }
   return 0.5 * (low + high);

@@ -132,8 +132,8 @@ struct NumberFunctions
     // value without cancellation, derivative e^a
     return exp(a) + (std::expm1(value(a)) - std::exp(value(a)));
   }
-  static V      logarithm(const V &a) { return log(a); }
-  static V      power(const V &a, const double n) { return pow(a, n); }
+  static V logarithm(const V &a) { return log(a); }
+  static V power(const V &a, const double n) { return pow(a, n); }
 };
 
 template <>

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <arenite/materials/geologic_cap.h>
 #include <arenite/materials/linear_elastic_law.h>
+#include <arenite/materials/viscoelastic.h>
 #include <arenite/materials/viscoplastic_cap.h>
 
 #include <tuple>
@@ -9,7 +11,9 @@ namespace Arenite
 {
 /// Every law that `set Law` can choose, in the order of the manual. A line here registers a law for scenes, bench and manual, and
 /// puts it under the tests of the contract.
-using LawTypes = std::tuple<LinearElasticLaw,                  //
-                            ViscoplasticCap<ConstantStiffness> //
+using LawTypes = std::tuple<LinearElasticLaw,                   //
+                            ViscoplasticCap<ConstantStiffness>, //
+                            GeologicCap,                        //
+                            Viscoelastic                        //
                             >;
 } // namespace Arenite
