@@ -1,4 +1,4 @@
-#include <arenite/materials/viscoplastic_cap.h>
+#include <arenite/materials/soil_stiffness.h>
 
 #include <cmath>
 
@@ -23,8 +23,15 @@ void ViscoplasticCap<Stiffness>::declare_parameters(Parameters &parameters)
                           "I1 of first compaction: three times the yield pressure. Larger: stiffer at first.");
   parameters.add_quantity("Hardening rate D", surface.hardening_rate, "1/Pa", positive,
                           "Compaction per I1: k = W D (X - X0)/(1 + D (X - X0)). Larger: compacts at lower pressure.");
-  parameters.add_quantity("Hardening limit W", surface.hardening_limit, "-", {0., 1., true, true},
-                          "Largest compactive volume strain, of the closed pores. Larger: absorbs more.");
+  if constexpr (Stiffness::changes)
+    {
+      parameters.add_quantity("Hardening limit W", surface.hardening_limit, "-", {0., 1., false, true},
+                              "Largest compactive volume strain; by default that of all air. Larger: absorbs more.");
+      parameters.leave_out_if_unset("Hardening limit W");
+    }
+  else
+    parameters.add_quantity("Hardening limit W", surface.hardening_limit, "-", {0., 1., true, true},
+                            "Largest compactive volume strain, of the closed pores. Larger: absorbs more.");
   parameters.add_quantity("Tension limit T", surface.tension_limit, "Pa", positive,
                           "Tensile strength on the I1 axis: three times the mean tensile stress. Larger: later spall.");
   parameters.add_flag("Small cap rule", surface.small_cap_rule,
@@ -52,11 +59,18 @@ void ViscoplasticCap<Stiffness>::finalize(const Parameters &parameters)
   stiffness.finalize(parameters);
   viscosity = viscosity_name == "Perzyna" ? Viscosity::perzyna
                                           : (viscosity_name == "none" ? Viscosity::none : Viscosity::duvaut_lions);
+  if (const std::string problem =
+        stiffness.adopt_hardening_limit(surface.hardening_limit, parameters.is_set(path + "/Hardening limit W"));
+      !problem.empty())
+    parameters.refuse(path, problem);
   if (const std::string problem = surface.finalize(); !problem.empty())
     parameters.refuse(path, problem);
 }
 
 template struct ViscoplasticCap<ConstantStiffness>;
+template struct ViscoplasticCap<SoilStiffness>;
 static_assert(IsMaterialLaw<ViscoplasticCap<ConstantStiffness>>::value);
 static_assert(IsMaterialLaw<ViscoplasticCap<ConstantStiffness>, Lanes<native_lanes>>::value);
+static_assert(IsMaterialLaw<ViscoplasticCap<SoilStiffness>>::value);
+static_assert(IsMaterialLaw<ViscoplasticCap<SoilStiffness>, Lanes<native_lanes>>::value);
 } // namespace Arenite

@@ -2,8 +2,8 @@
 
 #include <arenite/materials/geologic_cap.h>
 #include <arenite/materials/linear_elastic_law.h>
+#include <arenite/materials/soil_stiffness.h>
 #include <arenite/materials/viscoelastic.h>
-#include <arenite/materials/viscoplastic_cap.h>
 
 #include <tuple>
 
@@ -13,6 +13,7 @@ namespace Arenite
 /// puts it under the tests of the contract.
 using LawTypes = std::tuple<LinearElasticLaw,                   //
                             ViscoplasticCap<ConstantStiffness>, //
+                            ViscoplasticCap<SoilStiffness>,     //
                             GeologicCap,                        //
                             Viscoelastic                        //
                             >;

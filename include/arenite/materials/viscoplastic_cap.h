@@ -8,17 +8,21 @@
 
 namespace Arenite
 {
+/// Moduli of one step [Pa]: the step is integrated with K and G, stored energies are those of the unloading moduli at its ends.
+template <typename Number>
+struct StepModuli
+{
+  Number K, G, K_old, G_old, K_new, G_new;
+};
+
 /// Elastic stiffness that does not change.
 struct ConstantStiffness
 {
-  template <typename Number>
-  using History = NoHistory<Number>;
+  static constexpr const char *law_name = "viscoplastic cap";
+  static constexpr bool        changes  = false;
 
   template <typename Number>
-  struct Moduli
-  {
-    Number K, G; ///< [Pa], for the whole step
-  };
+  using History = NoHistory<Number>;
 
   void declare_parameters(Parameters &parameters) { constants.declare_parameters(parameters); }
   void finalize(const Parameters &parameters) { elastic = constants.finalize(parameters); }
@@ -28,10 +32,12 @@ struct ConstantStiffness
   double          wave_speed_bound() const { return elastic.p_wave_speed(); }
 
   template <typename Number>
-  Moduli<Number> moduli(const PointIncrement<Number> &, History<Number> &) const
+  StepModuli<Number> moduli(const PointIncrement<Number> &, History<Number> &) const
   {
-    return {Number(elastic.bulk_modulus), Number(elastic.shear_modulus)};
+    const Number K = Number(elastic.bulk_modulus), G = Number(elastic.shear_modulus);
+    return {K, G, K, G, K, G};
   }
+  std::string adopt_hardening_limit(double &, bool) { return ""; }
   template <typename Number>
   void after_transfer(History<Number> &) const
   {}
@@ -111,11 +117,19 @@ struct ViscoplasticCap
     for (unsigned int part = 0; part < n; ++part)
       response.dissipated += step(stress, strain, increment.dt / n, moduli.K, moduli.G, history);
 
-    const Number p      = pressure(stress);
+    const Number p = pressure(stress), J2 = second_invariant(deviator(stress));
     response.stress     = stress;
     response.substeps   = n;
-    response.wave_speed = square_root(Number((moduli.K + Number(4. / 3.) * moduli.G) / increment.density));
-    response.stored     = Number(0.5) * (p * p / moduli.K + second_invariant(deviator(stress)) / moduli.G);
+    response.wave_speed = square_root(Number((moduli.K_new + Number(4. / 3.) * moduli.G_new) / increment.density));
+    response.stored     = Number(0.5) * (p * p / moduli.K_new + J2 / moduli.G_new);
+    if constexpr (Stiffness::changes) // moduli that grow keep the stress and lose stored energy
+      {
+        const Number p_n = pressure(stress_n), J2_n = second_invariant(deviator(stress_n));
+        response.dissipated += Number(0.5) * (p_n * p_n * (Number(1.) / moduli.K_old - Number(1.) / moduli.K) +
+                                              J2_n * (Number(1.) / moduli.G_old - Number(1.) / moduli.G) +
+                                              p * p * (Number(1.) / moduli.K - Number(1.) / moduli.K_new) +
+                                              J2 * (Number(1.) / moduli.G - Number(1.) / moduli.G_new));
+      }
     return response;
   }
 
@@ -259,5 +273,4 @@ private:
   }
 };
 
-extern template struct ViscoplasticCap<ConstantStiffness>;
 } // namespace Arenite
