@@ -1,0 +1,143 @@
+#pragma once
+
+#include <arenite/materials/bracketed_root.h>
+#include <arenite/materials/equation_of_state.h>
+#include <arenite/materials/soil_state.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace Arenite
+{
+/// Nearly saturated soil as air, water and grains under one pressure, without a skeleton:
+///
+///   V = rho_0/rho = sum_i a_i [ 1 + g_i (p - p_a)/K_i ]^(-1/g_i),     i = air, water, grains,   a_i at p_a,   sum a_i = 1
+///   K = V / sum_i (a_i/K_i) [..]^(-1/g_i - 1),    rho c^2 = K;        at p_a Wood's modulus of a suspension
+///
+/// with absolute p inside; the answer counts pressure from p_a, because bodies at rest carry no stress. K_air = g_air p_a, so that
+/// air follows p V^g = const. Reversible. Valid for little air (below about 5 %) and waves faster than drainage.
+///
+/// V(p) falls, hence one root: Newton's method for ln p, in a bracket. Source: Lyakhov (1964), Henrych (1979).
+struct ThreePhaseMixture
+{
+  static constexpr const char *name = "three phase mixture";
+  static constexpr const char *description =
+    "Nearly saturated soil as air, water and grains under one pressure; no skeleton.";
+  static constexpr bool uses_energy = false;
+
+  template <typename Number>
+  using History = NoHistory<Number>;
+
+  double density          = 0.;                           ///< rho_0 [kg/m^3]
+  double fraction[3]      = {0., 0., 0.};                 ///< a_i of air, water, grains
+  double modulus_of[3]    = {1.4 * 101e3, 2.2e9, 36.6e9}; ///< K_i = rho_i c_i^2 [Pa]
+  double exponent[3]      = {1.4, 7., 3.};                ///< g_i
+  double air_pressure     = 101e3;                        ///< p_a [Pa], absolute
+  double tension_limit    = 0.;                           ///< T [Pa], below p_a where there is air
+  double largest_pressure = 1e10;                         ///< end of the valid range [Pa]
+
+  void declare_parameters(Parameters &);
+  /// Refuses a soil without a state, T >= p_a with air, and V(p) that is not defined at -T.
+  void finalize(const Parameters &);
+
+  /// Densities, fractions and moduli of a soil.
+  void set(const SoilState &);
+
+  NoHistory<double> initial_history() const { return {}; }
+  double            reference_density() const { return density; }
+
+  /// V at the pressure p above p_a, -dV/dp, and the stored energy per mass (1/rho_0) int p (-dV/dp) dp.
+  template <typename Number>
+  struct Volume
+  {
+    Number volume, compliance;
+  };
+  template <typename Number>
+  Volume<Number> volume(const Number &p) const
+  {
+    Volume<Number> result{Number(0.), Number(0.)};
+    for (int i = 0; i < 3; ++i)
+      if (fraction[i] > 0.)
+        {
+          const Number base = Number(1.) + Number(exponent[i] / modulus_of[i]) * p;
+          const Number part = Number(fraction[i]) * Arenite::exponential<Number>(Number(-1. / exponent[i]) *
+                                                                                 Arenite::logarithm<Number>(base));
+          result.volume     = result.volume + part;
+          result.compliance = result.compliance + part / (base * Number(modulus_of[i]));
+        }
+    return result;
+  }
+
+  template <typename Number>
+  EquationOfStateResponse<Number> update(const VolumeChange<Number> &change, NoHistory<Number> &) const
+  {
+    // (i) V(p) = V in z = ln(p + p_a + T'), between the tension limit and ten times the valid range
+    const Number target = Number(density) / change.density, shift(log_shift);
+    const Number lower(std::log(log_shift - tension_limit)), upper(std::log(log_shift + 10. * largest_pressure));
+    const Number open_volume(volume_at_limit);
+    const auto   open   = target >= open_volume;
+    const Number within = Arenite::select<Number>(open, Number(1.), target); // open lanes solve for rest instead
+    const auto   excess = [&](const Number &z) {
+      const Number         shifted = Arenite::exponential<Number>(z);
+      const Volume<Number> V       = volume<Number>(shifted - shift);
+      return ValueAndSlope<Number>{within - V.volume, V.compliance * shifted};
+    };
+    const Number guess =
+      Arenite::logarithm<Number>(Arenite::max<Number>(change.pressure_old, Number(-tension_limit)) + shift);
+    const Number z = bracketed_root<Number>(excess, lower, upper, guess, Number(1e-9));
+    const Number p =
+      Arenite::select<Number>(open, Number(-tension_limit), Number(Arenite::exponential<Number>(z) - shift));
+
+    // (ii) modulus and energy on the curve; while the gap is open those of the limit, with the speed that a closed gap has
+    const Volume<Number>            V = volume<Number>(p);
+    const Number                    K = V.volume / V.compliance;
+    EquationOfStateResponse<Number> response{p, K, stored<Number>(p, V.volume)};
+    const Number                    opened = Number(tension_limit / density) * (target - open_volume);
+    response.stored = Arenite::select<Number>(open, Number(response.stored + opened), response.stored);
+    response.bulk_modulus =
+      Arenite::select<Number>(open, Number(change.density * Number(limit_speed * limit_speed)), K);
+    return response;
+  }
+
+  double bulk_sound_speed_bound() const { return speed_bound; }
+
+  /// NaN beyond ten times the largest pressure.
+  double hugoniot_pressure(const double rho) const
+  {
+    NoHistory<double> none;
+    return update(VolumeChange<double>{density, rho, 0.}, none).pressure;
+  }
+
+  /// Derived constants and checks; the reason of a refusal, or nothing.
+  std::string prepare();
+
+private:
+  double           log_shift = 0., volume_at_limit = 1., limit_speed = 0., speed_bound = 0.;
+  SoilStateEntries soil;
+  std::string      path;
+
+  /// (1/rho_0) [ -p V + int_0^p V dp ],  int V dp = sum_i a_i K_i/(g_i - 1) ([..]^(1 - 1/g_i) - 1)  [J/kg]; the difference of terms is
+  /// accurate to round-off of p, and p^2/2 (-dV/dp) takes its place for small pressures.
+  template <typename Number>
+  Number stored(const Number &p, const Number &V) const
+  {
+    Number integral(0.), first(0.), second(0.);
+    for (int i = 0; i < 3; ++i)
+      if (fraction[i] > 0.)
+        {
+          const double g = exponent[i], K = modulus_of[i];
+          const Number base = Number(1.) + Number(g / K) * p;
+          integral =
+            integral +
+            Number(fraction[i] * K / (g - 1.)) *
+              (Arenite::exponential<Number>(Number(1. - 1. / g) * Arenite::logarithm<Number>(base)) - Number(1.));
+          first  = first + Number(fraction[i] / K);
+          second = second + Number(fraction[i] * (1. + g) / (K * K));
+        }
+    const auto   small  = Arenite::absolute<Number>(p) < Number(1e-3 * air_pressure);
+    const Number series = p * p * (Number(.5) * first - p * second * Number(1. / 3.));
+    return Number(1. / density) * Arenite::select<Number>(small, series, Number(integral - p * V));
+  }
+};
+} // namespace Arenite
