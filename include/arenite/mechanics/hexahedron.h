@@ -263,9 +263,13 @@ struct OnePointHexahedron
     volume = volume * V(0.125);
   }
 
-  /// In addition to FullHexahedron::internal_force: @p v holds the velocities, read only with a viscous hourglass control.
+  /// Patterns without a mean gradient, in each direction.
+  static constexpr int n_patterns = 4;
+
+  /// In addition to FullHexahedron::internal_force, @p v: the velocities, consumed, and @p Q: the force amplitude on each pattern,
+  /// those of the last call in, those of this call out. Both are read only with a viscous hourglass control.
   template <bool with_energy, bool viscous, typename V>
-  static ARENITE_INLINE void internal_force(const V (&nodes)[3][8], V (&u)[3][8], V (&v)[3][8],
+  static ARENITE_INLINE void internal_force(const V (&nodes)[3][8], V (&u)[3][8], V (&v)[3][8], V (&Q)[3][n_patterns],
                                             const ElasticModuli &moduli, ElementEnergy<V> &energy)
   {
     using M = TrilinearModes;
@@ -305,7 +309,6 @@ struct OnePointHexahedron
       energy.strain += V(0.5) * volume * contract(stress, gradient);
 
     // stabilisation: force amplitude Q_ia on pattern a in direction i
-    V Q[3][4];
     if constexpr (viscous)
       {
         V G[3][3];
@@ -318,9 +321,9 @@ struct OnePointHexahedron
         for (int i = 0; i < 3; ++i)
           for (int a = 0; a < 4; ++a)
             {
-              const V rate = hourglass(v, G, i, a);
-              Q[i][a]      = c * rate;
-              energy.viscous += Q[i][a] * rate;
+              const V rate = hourglass(v, G, i, a), force = c * rate;
+              energy.viscous += V(0.5) * (Q[i][a] + force) * rate;
+              Q[i][a] = force;
             }
       }
     else
