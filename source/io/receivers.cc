@@ -180,9 +180,8 @@ void Receivers<dim>::push(const Kind kind, const VectorType &field, const State<
         values[c] += contact.weight * u[c];
       if (kind != Kind::row || !quantities.stress)
         continue;
-      const SymmetricTensor<2, 3> stress =
-        CellFields<dim>::stress(materials[i], fields->reference_gradient(field, contact.cell, contact.factors) *
-                                                contact.inverse_jacobian);
+      const SymmetricTensor<2, 3> stress = materials[i].stress(
+        fields->reference_gradient(field, contact.cell, contact.factors) * contact.inverse_jacobian);
       for (unsigned int k = 0; k < 6; ++k)
         values[dim + k] += contact.weight * stress.access_raw_entry(k);
     }

@@ -38,6 +38,20 @@ inline double lane(const V &x, const int l)
   return x[l];
 }
 
+/// Consecutive doubles in memory, one per lane.
+inline void load_lanes(const double *from, double &x) { x = *from; }
+inline void store_lanes(const double x, double *to) { *to = x; }
+template <typename V>
+inline void load_lanes(const double *from, V &x)
+{
+  x.copy_from(from, std::experimental::element_aligned);
+}
+template <typename V>
+inline void store_lanes(const V &x, double *to)
+{
+  x.copy_to(to, std::experimental::element_aligned);
+}
+
 /// Larger of two numbers, lane by lane. Qualified calls only: argument dependent look-up finds slower functions.
 inline double max(const double a, const double b) { return a < b ? b : a; }
 template <typename V>
