@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <functional>
 #include <iostream>
@@ -212,6 +213,7 @@ int main(int argc, char **argv)
       return input_error;
     }
 
+  std::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit of the user (ulimit -f) is an OutputError
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   return execute(command, options);
 }

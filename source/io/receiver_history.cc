@@ -1,5 +1,7 @@
 #include <arenite/io/receiver_history.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -68,7 +70,7 @@ std::map<std::string, double> ReceiverErrors<dim>::of_point(const unsigned int p
 }
 
 template <int dim>
-std::map<std::string, double> ReceiverErrors<dim>::of_set() const
+std::map<std::string, double> ReceiverErrors<dim>::of_set(const MPI_Comm communicator) const
 {
   std::map<std::string, double> result;
   for (const Quantity &quantity : quantities)
@@ -79,7 +81,10 @@ std::map<std::string, double> ReceiverErrors<dim>::of_set() const
           sum.error += square.error;
           sum.exact += square.exact;
         }
-      result[quantity.name + ".E_t"] = relative(sum.error, sum.exact);
+      const double error = Utilities::MPI::sum(sum.error, communicator);
+      const double exact = Utilities::MPI::sum(sum.exact, communicator);
+
+      result[quantity.name + ".E_t"] = relative(error, exact);
     }
   return result;
 }
@@ -89,15 +94,15 @@ void ReceiverNorms<dim>::add(const ReceiverRow<dim> &row)
 {
   const double half_step = started ? 0.5 * (row.time - last_time) : 0.;
   const auto   include   = [&](Norm &norm, const auto &values) {
-    double mean = 0.;
+    double sum = 0.;
     for (const auto &value : values)
       {
-        mean += value * value / static_cast<double>(values.size());
+        sum += value * value;
         norm.peak = std::max(norm.peak, std::sqrt(value * value));
       }
-    norm.integral += half_step * (norm.last + mean);
-    norm.last    = mean;
-    norm.present = !values.empty();
+    norm.integral += half_step * (norm.last + sum);
+    norm.last     = sum;
+    norm.n_points = values.size();
   };
   include(displacement, row.displacement);
   include(velocity, row.velocity);
@@ -109,14 +114,17 @@ void ReceiverNorms<dim>::add(const ReceiverRow<dim> &row)
 }
 
 template <int dim>
-std::map<std::string, double> ReceiverNorms<dim>::of_set() const
+std::map<std::string, double> ReceiverNorms<dim>::of_set(const MPI_Comm communicator) const
 {
   std::map<std::string, double> result;
   const auto                    add = [&](const std::string &name, const Norm &norm) {
-    if (!norm.present || !(last_time > first_time))
+    const auto   n_points = static_cast<double>(Utilities::MPI::sum(norm.n_points, communicator));
+    const double integral = Utilities::MPI::sum(norm.integral, communicator);
+    const double peak     = Utilities::MPI::max(norm.peak, communicator);
+    if (n_points == 0. || !(last_time > first_time))
       return;
-    result[name + ".rms"]  = std::sqrt(norm.integral / (last_time - first_time));
-    result[name + ".peak"] = norm.peak;
+    result[name + ".rms"]  = std::sqrt(integral / (n_points * (last_time - first_time)));
+    result[name + ".peak"] = peak;
   };
   add("displacement", displacement);
   add("velocity", velocity);

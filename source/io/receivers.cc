@@ -83,8 +83,6 @@ void Receivers<dim>::open(const std::string &directory_, const double start_time
   end_time                    = end_time_;
   next_output                 = 0;
   with_errors                 = exact != nullptr;
-  if (exact)
-    error_integrals.reinit(*exact, points.positions, quantities);
 
   const std::string stem = directory + "/receivers-" + name;
   if (points.in_table())
@@ -113,6 +111,13 @@ void Receivers<dim>::open(const std::string &directory_, const double start_time
                          " s gives more than 1e7 rows until the end time. Is it shorter than the step?");
       file = make_receiver_group<dim>(store, name, location.positions, quantities, std::size_t(n_rows));
     }
+
+  const unsigned int rank        = Utilities::MPI::this_mpi_process(communicator);
+  const unsigned int first_point = file->first_points[rank];
+  n_own_points                   = file->first_points[rank + 1] - first_point;
+  if (exact)
+    error_integrals.reinit(*exact, {&points.positions[first_point], &points.positions[first_point] + n_own_points},
+                           quantities);
 }
 
 template <int dim>
@@ -175,9 +180,8 @@ void Receivers<dim>::push(const Kind kind, const VectorType &field, const State<
         values[c] += contact.weight * u[c];
       if (kind != Kind::row || !quantities.stress)
         continue;
-      const SymmetricTensor<2, 3> stress =
-        CellFields<dim>::stress(materials[i], fields->reference_gradient(field, contact.cell, contact.factors) *
-                                                contact.inverse_jacobian);
+      const SymmetricTensor<2, 3> stress = materials[i].stress(
+        fields->reference_gradient(field, contact.cell, contact.factors) * contact.inverse_jacobian);
       for (unsigned int k = 0; k < 6; ++k)
         values[dim + k] += contact.weight * stress.access_raw_entry(k);
     }
@@ -186,35 +190,55 @@ void Receivers<dim>::push(const Kind kind, const VectorType &field, const State<
 template <int dim>
 void Receivers<dim>::flush()
 {
-  const MPI_Comm communicator = discretization->communicator;
-  const bool     root         = Utilities::MPI::this_mpi_process(communicator) == 0;
-  const int      ierr = MPI_Reduce(root ? MPI_IN_PLACE : buffer.data(), buffer.data(), int(buffer.size()), MPI_DOUBLE,
-                              MPI_SUM, 0, communicator);
-  AssertThrowMPI(ierr);
-  if (root)
-    process_buffer();
+  process(sums_of_own_points());
   headers.clear();
   buffer.clear();
   file->flush();
 }
 
+/// [header][own point][u, stress]
 template <int dim>
-void Receivers<dim>::process_buffer()
+std::vector<double> Receivers<dim>::sums_of_own_points() const
 {
-  const auto emit = [&](const ReceiverRow<dim> &row) {
-    file->add(row);
-    signal_norms.add(row);
-    if (with_errors)
-      error_integrals.add(row);
-  };
-  const unsigned int          n_points = points.names.size();
-  std::vector<Tensor<1, dim>> vectors(n_points);
+  const std::size_t                row_size = points.names.size() * n_values;
+  const std::vector<unsigned int> &first    = file->first_points;
+  std::vector<double>              by_owner;
+  std::vector<int>                 counts;
+  by_owner.reserve(buffer.size());
+  for (unsigned int owner = 0; owner + 1 < first.size(); ++owner)
+    {
+      for (std::size_t row = 0; row < headers.size(); ++row)
+        by_owner.insert(by_owner.end(), buffer.begin() + row * row_size + first[owner] * n_values,
+                        buffer.begin() + row * row_size + first[owner + 1] * n_values);
+      counts.push_back(int(headers.size() * (first[owner + 1] - first[owner]) * n_values));
+    }
+  std::vector<double> result(headers.size() * n_own_points * n_values);
+  const int           ierr = MPI_Reduce_scatter(by_owner.data(), result.data(), counts.data(), MPI_DOUBLE, MPI_SUM,
+                                                discretization->communicator);
+  AssertThrowMPI(ierr);
+  return result;
+}
+
+template <int dim>
+void Receivers<dim>::emit(const ReceiverRow<dim> &row)
+{
+  file->add(row);
+  signal_norms.add(row);
+  if (with_errors)
+    error_integrals.add(row);
+}
+
+template <int dim>
+void Receivers<dim>::process(const std::vector<double> &sums)
+{
+  const auto                  emit_row = [this](const ReceiverRow<dim> &row) { emit(row); };
+  std::vector<Tensor<1, dim>> vectors(n_own_points);
   ReceiverRow<dim>            row;
-  const double               *values = buffer.data();
+  const double               *values = sums.data();
   for (const Header &header : headers)
     {
-      row.stress.resize(quantities.stress ? n_points : 0);
-      for (unsigned int point = 0; point < n_points; ++point, values += n_values)
+      row.stress.resize(quantities.stress ? n_own_points : 0);
+      for (unsigned int point = 0; point < n_own_points; ++point, values += n_values)
         {
           for (unsigned int c = 0; c < dim; ++c)
             vectors[point][c] = values[c];
@@ -223,12 +247,12 @@ void Receivers<dim>::process_buffer()
         }
       if (header.kind == Kind::half_velocity)
         {
-          history.begin(header.step, header.dt, vectors, emit);
+          history.begin(header.step, header.dt, vectors, emit_row);
           continue;
         }
       row.time         = header.time;
       row.displacement = vectors;
-      history.add(header.step, header.dt, vectors, header.kind == Kind::row ? &row : nullptr, emit);
+      history.add(header.step, header.dt, vectors, header.kind == Kind::row ? &row : nullptr, emit_row);
     }
 }
 
@@ -236,17 +260,10 @@ template <int dim>
 void Receivers<dim>::finish()
 {
   flush();
-  const MPI_Comm communicator = discretization->communicator;
-  if (Utilities::MPI::this_mpi_process(communicator) == 0)
-    history.finish([&](const ReceiverRow<dim> &row) {
-      file->add(row);
-      signal_norms.add(row);
-      if (with_errors)
-        error_integrals.add(row);
-    });
+  history.finish([this](const ReceiverRow<dim> &row) { emit(row); });
   file->flush();
   file.reset();
-  norm_map = Utilities::MPI::broadcast(communicator, signal_norms.of_set());
+  norm_map = signal_norms.of_set(discretization->communicator);
   if (with_errors)
     write_errors();
 }
@@ -255,21 +272,27 @@ template <int dim>
 void Receivers<dim>::write_errors()
 {
   const MPI_Comm communicator = discretization->communicator;
+  const auto     of_set       = error_integrals.of_set(communicator);
   error_map.clear();
-  for (const auto &[quantity, error] : error_integrals.of_set())
-    error_map[name + "." + quantity] = Utilities::MPI::broadcast(communicator, error);
+  for (const auto &[quantity, error] : of_set)
+    error_map[name + "." + quantity] = error;
 
   const auto line = [](std::string text, const std::map<std::string, double> &errors) {
     for (const auto &[quantity, error] : errors)
       text += "," + table_number(error);
     return text + "\n";
   };
+  std::vector<std::map<std::string, double>> of_own_points;
+  for (unsigned int point = 0; point < n_own_points; ++point)
+    of_own_points.push_back(error_integrals.of_point(point));
   std::string text = "name";
-  for (const auto &[quantity, error] : error_integrals.of_set())
+  for (const auto &[quantity, error] : of_set)
     text += "," + quantity;
-  text += line("\nall points", error_integrals.of_set());
-  for (unsigned int point = 0; point < points.names.size(); ++point)
-    text += line(points.names[point], error_integrals.of_point(point));
+  text += line("\nall points", of_set);
+  auto point_name = points.names.begin();
+  for (const auto &of_points : Utilities::MPI::gather(communicator, of_own_points)) // on process 0
+    for (const auto &of_point : of_points)
+      text += line(*point_name++, of_point);
   write_text_file(directory + "/receivers-" + name + "-errors.csv", text, communicator);
 }
 
@@ -307,6 +330,8 @@ void ReceiverSets<dim>::open(const std::string &directory, const double start_ti
 {
   for (auto &set : sets)
     set->open(directory, start_time, end_time, exact, store);
+  if (store)
+    store->create();
 }
 
 template <int dim>
@@ -321,6 +346,8 @@ void ReceiverSets<dim>::finish()
 {
   for (auto &set : sets)
     set->finish();
+  if (store)
+    store->close();
   store.reset();
 }
 

@@ -114,18 +114,6 @@ Tensor<2, dim> CellFields<dim>::gradient(const VectorType &field, const unsigned
   return reference_gradient(field, cell, factors) * dealii::invert(jacobian(cell, factors));
 }
 
-template <int dim>
-SymmetricTensor<2, 3> CellFields<dim>::stress(const LinearElastic &material, const Tensor<2, dim> &gradient)
-{
-  SymmetricTensor<2, 3> result;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      result[i][j] = material.shear_modulus * (gradient[i][j] + gradient[j][i]);
-  for (unsigned int i = 0; i < 3; ++i)
-    result[i][i] += material.lame_lambda() * trace(gradient);
-  return result;
-}
-
 namespace
 {
 /// Place in the unit cell of the node nearest to @p x.

@@ -49,13 +49,6 @@ Tensor<2, dim> reference_gradient(const FullMatrix<double> &derivative, const st
 } // namespace
 
 template <int dim>
-SymmetricTensor<2, dim> elastic_stress(const LinearElastic &material, const Tensor<2, dim> &gradient)
-{
-  const SymmetricTensor<2, dim> strain = symmetrize(gradient);
-  return material.lame_lambda() * trace(strain) * unit_symmetric_tensor<dim>() + 2. * material.shear_modulus * strain;
-}
-
-template <int dim>
 double pressure(const SymmetricTensor<2, dim> &stress)
 {
   return -trace(stress) / dim;
@@ -92,11 +85,11 @@ NodalStress<dim> nodal_stress(const Discretization<dim> &discretization, const V
           }
       for (unsigned int n = 0; n < n_nodes; ++n)
         {
-          const Tensor<2, dim>          jacobian = reference_gradient(derivative, x, n);
-          const SymmetricTensor<2, dim> stress =
-            elastic_stress(material, Tensor<2, dim>(reference_gradient(derivative, u, n) * invert(jacobian)));
+          const Tensor<2, dim>        jacobian = reference_gradient(derivative, x, n);
+          const SymmetricTensor<2, 3> stress =
+            material.stress(Tensor<2, dim>(reference_gradient(derivative, u, n) * invert(jacobian)));
           for (unsigned int k = 0; k < sums.size(); ++k)
-            sums[k].local_element(nodes[n]) += stress.access_raw_entry(k);
+            sums[k].local_element(nodes[n]) += stress[SymmetricTensor<2, dim>::unrolled_to_component_indices(k)];
           count.local_element(nodes[n]) += 1.;
         }
     }
@@ -112,8 +105,7 @@ NodalStress<dim> nodal_stress(const Discretization<dim> &discretization, const V
   return sums;
 }
 
-template SymmetricTensor<2, 3> elastic_stress(const LinearElastic &, const Tensor<2, 3> &);
-template double                pressure(const SymmetricTensor<2, 3> &);
-template double                von_mises_stress(const SymmetricTensor<2, 3> &);
+template double         pressure(const SymmetricTensor<2, 3> &);
+template double         von_mises_stress(const SymmetricTensor<2, 3> &);
 template NodalStress<3> nodal_stress(const Discretization<3> &, const VectorType &, const std::vector<LinearElastic> &);
 } // namespace Arenite

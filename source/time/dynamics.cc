@@ -36,6 +36,8 @@ void Dynamics<dim>::reinit(State<dim> &state)
     {
       block->reinit(discretization);
       block->add_mass(nodal.partial);
+      state.viscous.emplace_back();
+      state.viscous.back().amplitude.resize(block->n_viscous_amplitudes(), 0.);
     }
   copy_with_ghosts(nodal.partial, nodal.condensed);
   VectorType &mass = nodal.condensed;
@@ -68,10 +70,13 @@ void Dynamics<dim>::compute_internal_force(State<dim> &state, const bool overlap
   const HangingNodes &hanging = discretization.hanging;
   VectorType         &u = state.displacement, &f = state.force;
   const auto          add = [&](const CellPart part) {
-    for (const auto &block : blocks)
-      block->add(f, state, part);
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+      blocks[b]->add(f, state, part, state.viscous[b]);
   };
 
+  state.viscous.resize(blocks.size()); // without amplitudes if the state was not sized by reinit(): no record
+  for (ViscousForces &viscous : state.viscous)
+    viscous.power = 0.;
   for (const auto &block : blocks)
     if (block->uses_velocity())
       {
@@ -116,15 +121,11 @@ void Dynamics<dim>::close_force(State<dim> &state, const double dt, const bool b
   damping.apply(state, mean);
   constraints.apply(state, dt, mean);
   if (!book_first_half)
-    {
-      for (const auto &block : blocks)
-        block->take_viscous_power(); // booked with the old forces, over both halves
-      return;
-    }
+    return;
   book_work(state, 0.5 * state.dt_last);
-  // known for v_{n-1/2} only: the ledger closes to first order in the step here, not to round-off
-  for (const auto &block : blocks)
-    balance.add_work(loads.size() + 1, -mean * block->take_viscous_power());
+  // both halves of the step behind at once, with the forces at its ends: the second needs the forces of t_n, which depend on v_{n-1/2}
+  for (const ViscousForces &viscous : state.viscous)
+    balance.add_work(loads.size() + 1, -state.dt_last * viscous.power);
   if (mean != state.dt_last)
     balance.add_step_change(0.5 * (mean - state.dt_last) * power(state));
 }

@@ -27,10 +27,11 @@ void StableTimeStep<dim>::finalize(const Parameters &)
 {}
 
 template <int dim>
-double largest_eigenvalue(Dynamics<dim> &dynamics, const unsigned int n_iterations, const double tolerance)
+double largest_eigenvalue(Dynamics<dim> &dynamics, const unsigned int n_iterations, const double tolerance,
+                          const double rate)
 {
-  // Lanczos for A = M^-1/2 K M^-1/2; q and the work vectors hold M^1/2 u. Without reorthogonalisation the largest Ritz value still
-  // converges to the largest eigenvalue (Paige, 1971).
+  // Lanczos for A = M^-1/2 (K + rate C) M^-1/2; q and the work vectors hold M^1/2 u. Without reorthogonalisation the
+  // largest Ritz value still converges to the largest eigenvalue (Paige, 1971).
   const Discretization<dim> &discretization = dynamics.discretization;
   State<dim>                 state;
   state.reinit(discretization);
@@ -63,8 +64,9 @@ double largest_eigenvalue(Dynamics<dim> &dynamics, const unsigned int n_iteratio
       for (unsigned int i = 0; i < n; ++i)
         {
           q.local_element(i) /= beta;
-          const double m                      = root_mass.local_element(i);
-          state.displacement.local_element(i) = m > 0. ? q.local_element(i) / m : 0.;
+          const double m                       = root_mass.local_element(i);
+          state.displacement.local_element(i)  = m > 0. ? q.local_element(i) / m : 0.;
+          state.half_velocity.local_element(i) = rate * state.displacement.local_element(i);
         }
       state.force = 0.;
       dynamics.compute_internal_force(state);
@@ -157,11 +159,38 @@ void StableTimeStep<dim>::calibrate(Dynamics<dim> &dynamics)
   update(dynamics);
 }
 
+/// Largest eigenvalue of the assembled system with residual and margin; @p elements bounds it from above.
+template <int dim>
+double StableTimeStep<dim>::assembled_bound(Dynamics<dim> &dynamics, const double elements)
+{
+  const auto estimate = [&](const double rate) { return 1.01 * largest_eigenvalue(dynamics, 80, 1e-3, rate); };
+  if (std::none_of(dynamics.blocks.begin(), dynamics.blocks.end(),
+                   [](const auto &block) { return block->uses_velocity(); }))
+    return estimate(0.);
+
+  // Viscous forces: the estimate at a rate above the root sqrt(lambda) is safe, and at most half as far from the root. One below is
+  // corrected upwards.
+  double rate = rate_ratio * std::sqrt(elements), safe = elements;
+  for (unsigned int trial = 0; trial < 8; ++trial)
+    {
+      const double lambda = estimate(rate), change = std::sqrt(lambda) / rate;
+      rate *= change;
+      if (change <= 1.)
+        safe = std::min(safe, lambda);
+      else
+        rate *= 1.01;
+      if (change <= 1. && change > 0.99)
+        break;
+    }
+  rate_ratio = 1.01 * std::sqrt(safe / elements);
+  return safe;
+}
+
 template <int dim>
 void StableTimeStep<dim>::update(Dynamics<dim> &dynamics)
 {
   const double elements  = element_bound(dynamics);
-  const double assembled = 1.01 * largest_eigenvalue(dynamics, 80, 1e-3);
+  const double assembled = assembled_bound(dynamics, elements);
   element_step           = 2. / std::sqrt(elements);
   critical_step          = 2. / std::sqrt(std::min(elements, assembled));
 }
@@ -177,5 +206,5 @@ double StableTimeStep<dim>::next(const double time, const double end_time) const
 }
 
 template class StableTimeStep<3>;
-template double largest_eigenvalue(Dynamics<3> &, unsigned int, double);
+template double largest_eigenvalue(Dynamics<3> &, unsigned int, double, double);
 } // namespace Arenite

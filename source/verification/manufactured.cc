@@ -55,7 +55,7 @@ dealii::SymmetricTensor<2, 3> ManufacturedPlane<dim>::stress(const dealii::Point
   for (const Wave &wave : waves)
     gradient += std::cos(wave.wave_vector * x - wave.angular_frequency * t + wave.phase) *
                 outer_product(wave.amplitude, wave.wave_vector);
-  return linear_elastic_stress<dim>(material, gradient);
+  return material.stress(gradient);
 }
 
 template <int dim>
@@ -151,8 +151,7 @@ dealii::Tensor<1, dim> ManufacturedCube<dim>::velocity(const dealii::Point<dim> 
 template <int dim>
 dealii::SymmetricTensor<2, 3> ManufacturedCube<dim>::stress(const dealii::Point<dim> &x, const double t) const
 {
-  return linear_elastic_stress<dim>(material, std::sin(angular_frequency * t + phase) *
-                                                outer_product(amplitude, product_gradient(x)));
+  return material.stress(std::sin(angular_frequency * t + phase) * outer_product(amplitude, product_gradient(x)));
 }
 
 template <int dim>

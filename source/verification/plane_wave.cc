@@ -56,7 +56,7 @@ dealii::SymmetricTensor<2, 3> PlaneWave<dim>::stress(const dealii::Point<dim> &x
   // du/dx = -v/cp along the direction
   const double cp     = material.p_wave_speed();
   const double strain = -pressure->value(arrival_age(x, t)) / (material.density * cp * cp);
-  return linear_elastic_stress<dim>(material, strain * outer_product(direction, direction));
+  return material.stress(strain * outer_product(direction, direction));
 }
 
 template class PlaneWave<1>;

@@ -7,10 +7,11 @@ Comment lines of the scene say what must happen:
     # EXIT: 2                          exit code (default 2)
     # ARGS: check {file}               instead of  run {file} --output {out};  {folder} is the folder of the scene
     # RANKS: 2                         processes (default 1); the message must still come once
+    # DISK: 1m                         {out} lies on a disk of this size; skipped where nobody may mount one
 
 Whatever the mistake, the message has at most 10 lines and no stack trace, and comes within 60 s.
 """
-import os, re, shlex, subprocess, sys, tempfile
+import contextlib, os, re, shlex, subprocess, sys, tempfile
 from pathlib import Path
 
 MOST_LINES = 10
@@ -35,18 +36,35 @@ def directives(scene):
     return found
 
 
+@contextlib.contextmanager
+def disk(folder, size):
+    """A disk of the wanted size inside of the folder, or the folder itself."""
+    if not size:
+        yield folder
+        return
+    place = Path(folder) / "disk"
+    place.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size[0]}", "tmpfs", place], stderr=subprocess.DEVNULL).returncode:
+        print("skipped: no small disk can be mounted here")
+        sys.exit(77)
+    try:
+        yield place
+    finally:
+        subprocess.run(["umount", "--lazy", place])
+
+
 def problems(arenite, scene):
     scene = Path(scene).resolve()
     wanted = directives(scene)
-    unknown = set(wanted) - {"EXPECT", "EXIT", "ARGS", "RANKS", "LABEL", "TIMEOUT"}
+    unknown = set(wanted) - {"EXPECT", "EXIT", "ARGS", "RANKS", "DISK", "LABEL", "TIMEOUT"}
     if unknown:
         return [f"unknown comment lines: {', '.join(sorted(unknown))}"]
     if "EXPECT" not in wanted:
         return ["the scene has no line '# EXPECT: <regular expression>'"]
     ranks = int(wanted.get("RANKS", ["1"])[0])
     code = int(wanted.get("EXIT", ["2"])[0])
-    with tempfile.TemporaryDirectory(prefix="arenite-") as folder:
-        places = {"{file}": str(scene), "{out}": f"{folder}/output", "{folder}": str(scene.parent)}
+    with tempfile.TemporaryDirectory(prefix="arenite-") as folder, disk(folder, wanted.get("DISK")) as place_of_output:
+        places = {"{file}": str(scene), "{out}": f"{place_of_output}/output", "{folder}": str(scene.parent)}
         arguments = shlex.split(wanted.get("ARGS", ["run {file} --output {out}"])[0])
         for place, path in places.items():
             arguments = [a.replace(place, path) for a in arguments]

@@ -95,4 +95,21 @@ BOOST_AUTO_TEST_CASE(front_is_followed, *label("parallel"))
              0.9 * fine.dof_steps); // 0.84 on this short path; benchmarks/ show what longer ones save
 }
 
+// The same agreement with both forms of hourglass control: viscous forces belong to two steps, and the mesh changes between them.
+BOOST_AUTO_TEST_CASE(ledgers_agree_with_hourglass_control, *label("parallel"))
+{
+  for (const std::string control : {"stiffness", "viscous"})
+    {
+      auto scene = wide_cavity;
+      for (const std::string entry : {"Element/Type=one-point hexahedron", "Element/Degree=1", "Mesh/Refinement=2",
+                                      "Adaptivity/Levels=1", "Adaptivity/Coarsen below=0.02"})
+        scene.push_back(entry);
+      scene.push_back("Element/Hourglass control=" + control);
+      const RunRecord record = run_scene(cavity_scene, scene);
+      BOOST_TEST_MESSAGE(control << " energy error " << record.energy_error << " steps " << record.steps << " cells "
+                                 << record.cells);
+      BOOST_TEST(record.energy_error < 1e-11, control << ": " << record.energy_error);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -38,6 +38,24 @@ inline ElementChoice element(const unsigned int degree)
 }
 constexpr unsigned int all_elements[] = {0, 1, 2, 3, 4};
 
+inline ElementChoice viscous_element(const double hourglass_coefficient = 0.05)
+{
+  ElementChoice choice         = element(0);
+  choice.hourglass_control     = "viscous";
+  choice.hourglass_coefficient = hourglass_coefficient;
+  return choice;
+}
+
+/// The same and viscous hourglass control.
+inline std::vector<ElementChoice> all_choices()
+{
+  std::vector<ElementChoice> choices;
+  for (const unsigned int degree : all_elements)
+    choices.push_back(element(degree));
+  choices.push_back(viscous_element());
+  return choices;
+}
+
 /// A mesh with one elastic block, without loads unless a test adds them.
 struct Body
 {

@@ -1,159 +1,23 @@
 // Fields between the nodes, receivers and error norms: what is known exactly must come back, on any mesh and on any number of
 // processes. Linear fields of x are reproduced by every isoparametric cell, however curved, and by hanging nodes.
 
-#include <arenite/base/errors.h>
 #include <arenite/io/error_norms.h>
-#include <arenite/io/receivers.h>
 #include <arenite/verification/manufactured.h>
-
-#include <deal.II/distributed/tria.h>
-#include <deal.II/grid/grid_generator.h>
 
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
-#include <csignal>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <sys/resource.h>
-#include <unistd.h>
+
+#include "recorded_motion.h"
 
 using namespace Arenite;
+using namespace Arenite::Recorded;
 using namespace dealii;
 
 namespace
 {
-constexpr int dim = 3;
-
-const LinearElastic soil{1600., 3e7, 2e7};
-LinearElastic       soil_everywhere(types::material_id) { return soil; }
-
-enum class Body
-{
-  box,  ///< unit cube, distorted
-  shell ///< octant 1 < r < 2
-};
-
-/// A mesh with hanging nodes and its nodes.
-struct Mesh
-{
-  Mesh(const Body body, const unsigned int degree, const unsigned int refinements, const bool hanging = true)
-    : triangulation(MPI_COMM_WORLD)
-    , body(body)
-  {
-    if (body == Body::box)
-      GridGenerator::hyper_cube(triangulation);
-    else
-      GridGenerator::quarter_hyper_shell(triangulation, Point<dim>(), 1., 2.);
-    triangulation.refine_global(refinements);
-    discretization = std::make_unique<Discretization<dim>>(triangulation, degree);
-    if (hanging)
-      refine([](const Point<dim> &x) { return x[0] > x[1] && x[2] < 0.7; });
-    else
-      number();
-  }
-
-  void refine(const std::function<bool(const Point<dim> &)> &where)
-  {
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && where(cell->center()))
-        cell->set_refine_flag();
-    triangulation.execute_coarsening_and_refinement();
-    number();
-  }
-
-  void number()
-  {
-    discretization->distribute_nodes();
-    discretization->positions_from_manifolds();
-    if (body == Body::box)
-      discretization->transform([](const Point<dim> &x) {
-        const double bump = 0.08 * std::sin(2. * x[0]) * std::cos(3. * x[1]) * std::sin(2. * x[2] + 0.3);
-        return x + Point<dim>(bump, -0.7 * bump, 0.5 * bump);
-      });
-  }
-
-  parallel::distributed::Triangulation<dim> triangulation;
-  Body                                      body;
-  std::unique_ptr<Discretization<dim>>      discretization;
-};
-
-/// u = (1 + 20 t + 300 t^2) (A x + b) [mm]: linear in space, quadratic in time.
-class LinearMotion : public ExactSolution<dim>
-{
-public:
-  static double factor(const double t) { return 1. + 20. * t + 300. * t * t; }
-  static double rate(const double t) { return 20. + 600. * t; }
-
-  Tensor<1, dim> shape(const Point<dim> &x) const { return A * x + b; }
-
-  Tensor<1, dim> displacement(const Point<dim> &x, const double t) const override { return factor(t) * shape(x); }
-  Tensor<1, dim> velocity(const Point<dim> &x, const double t) const override { return rate(t) * shape(x); }
-  SymmetricTensor<2, 3> stress(const Point<dim> &, const double t) const override
-  {
-    return factor(t) * linear_elastic_stress<dim>(soil, A);
-  }
-
-  const Tensor<1, dim> b{{0.3e-3, -0.5e-3, 0.7e-3}};
-  const Tensor<2, dim> A{{{1e-3, 0.3e-3, -0.2e-3}, {0.5e-3, -0.7e-3, 0.4e-3}, {0.1e-3, 0.6e-3, 0.9e-3}}};
-};
-
-void set(VectorType &vector, const Discretization<dim> &discretization,
-         const std::function<Tensor<1, dim>(const Point<dim> &)> &field)
-{
-  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
-    for (unsigned int c = 0; c < dim; ++c)
-      vector.local_element(dim * node + c) = field(discretization.position(node))[c];
-}
-
-VectorType interpolate(const Discretization<dim>                               &discretization,
-                       const std::function<Tensor<1, dim>(const Point<dim> &)> &field)
-{
-  VectorType result = discretization.new_vector();
-  set(result, discretization, field);
-  make_consistent(discretization, result);
-  return result;
-}
-
-/// The state that central differences would have on a prescribed motion; hanging nodes of the half-step velocity hold nonsense.
-void prescribe(State<dim> &state, const Discretization<dim> &discretization, const LinearMotion &motion,
-               const Tensor<1, dim> &offset = {})
-{
-  state.displacement.zero_out_ghost_values();
-  set(state.displacement, discretization,
-      [&](const Point<dim> &x) { return motion.displacement(x, state.time) + offset; });
-  make_consistent(discretization, state.displacement);
-  state.half_velocity.zero_out_ghost_values();
-  set(state.half_velocity, discretization,
-      [&](const Point<dim> &x) { return motion.velocity(x, state.time - 0.5 * state.dt_last); });
-  for (const unsigned int node : discretization.hanging.list())
-    if (node < discretization.n_owned_nodes())
-      state.half_velocity.local_element(dim * node) = 1e30;
-}
-
-/// Folder that all processes share, removed at the end.
-struct Folder
-{
-  Folder()
-    : path((std::filesystem::temp_directory_path() /
-            ("arenite-receivers-" + std::to_string(Utilities::MPI::broadcast(MPI_COMM_WORLD, int(getpid())))))
-             .string())
-  {
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::filesystem::create_directories(path);
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
-  ~Folder()
-  {
-    MPI_Barrier(MPI_COMM_WORLD);
-    std::error_code ignored;
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::filesystem::remove_all(path, ignored);
-  }
-  const std::string path;
-};
-
 /// A written table read back.
 struct TextTable
 {
@@ -176,41 +40,7 @@ struct TextTable
   std::vector<std::vector<double>> rows;
 };
 
-/// Sets declared by a scene, ready for open().
-struct Sets
-{
-  explicit Sets(const std::string &text)
-  {
-    Parameters parameters = Parameters::from_text(text);
-    receivers.declare_parameters(parameters);
-    parameters.parse();
-    receivers.finalize(parameters);
-  }
-  ReceiverSets<dim> receivers;
-};
-
-bool mentions(const std::exception &error, const std::vector<std::string> &words)
-{
-  const std::string text = error.what();
-  for (const std::string &word : words)
-    if (text.find(word) == std::string::npos)
-      {
-        BOOST_TEST_MESSAGE(text);
-        return false;
-      }
-  return true;
-}
-
 const std::vector<Point<dim>> array_points{{1.3, 0.4, 0.2}, {0.3, 0.8, 1.1}, {0., 0., 1.5}};
-
-const std::string array_scene = R"(
-set Receivers = array
-subsection Receivers
-  subsection array
-    set Points = 1.3,0.4,0.2; 0.3,0.8,1.1; 0,0,1.5
-  end
-end
-)";
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(receivers)
@@ -454,137 +284,6 @@ end
   BOOST_TEST(coarse.rows.size() == 7u); // 0, 3, ..., 18 ms
   BOOST_TEST(of_points.rows.size() == 7u);
 }
-
-// Planes and lines: one file, rows at multiples of the interval, velocities exact there too; the last row is the end time.
-BOOST_AUTO_TEST_CASE(hdf5_sets, *boost::unit_test::label("parallel"))
-{
-  const Folder       folder;
-  const LinearMotion motion;
-  const Mesh         mesh(Body::shell, 2, 1);
-  Sets               sets(R"(
-set Receivers = cut, ray
-subsection Receivers
-  subsection cut
-    set Type          = plane
-    set Corner        = 1, 0.3, 0.3
-    set First edge    = 0.5, 0, 0
-    set Second edge   = 0, 0.5, 0.5
-    set First number  = 11
-    set Second number = 7
-    set Interval      = 2.5e-3
-  end
-  subsection ray
-    set Type       = line
-    set Start      = 0.7, 0.6, 0.5
-    set End        = 1.1, 1, 0.9
-    set Number     = 5
-    set Quantities = stress
-    set Interval   = 1e-2
-  end
-end
-)");
-  State<dim>         state;
-  state.reinit(*mesh.discretization);
-  sets.receivers.reinit(*mesh.discretization, soil_everywhere);
-  sets.receivers.open(folder.path, 0., 0.02, nullptr);
-  state.dt_last = 0.;
-  for (; state.step <= 50; ++state.step, state.time += state.dt_last = 4e-4)
-    {
-      prescribe(state, *mesh.discretization, motion);
-      sets.receivers.record(state);
-    }
-  sets.receivers.finish();
-  HDF5::File  file(folder.path + "/receivers.h5", HDF5::File::FileAccessMode::open, MPI_COMM_WORLD);
-  HDF5::Group cut      = file.open_group("cut");
-  const auto  time     = cut.open_dataset("time").read<std::vector<double>>();
-  const auto  position = cut.open_dataset("position").read<FullMatrix<double>>();
-  BOOST_TEST(cut.open_dataset("velocity").get_attribute<std::string>("unit") == "m/s");
-  BOOST_TEST(time.size() == 9u);
-  BOOST_TEST(position.m() == 77u);
-  BOOST_TEST(time[1] == 2.8e-3, boost::test_tools::tolerance(1e-12)); // first step at or after 2.5 ms
-  BOOST_TEST(time[8] == 2e-2, boost::test_tools::tolerance(1e-12));
-  const auto u      = cut.open_dataset("displacement").read_hyperslab<std::vector<double>>({0, 0, 0}, {9, 77, 3});
-  const auto v      = cut.open_dataset("velocity").read_hyperslab<std::vector<double>>({0, 0, 0}, {9, 77, 3});
-  const auto stress = cut.open_dataset("stress").read_hyperslab<std::vector<double>>({0, 0, 0}, {9, 77, 6});
-  double     error  = 0.;
-  for (unsigned int row = 0; row < 9; ++row)
-    for (unsigned int point = 0; point < 77; ++point)
-      {
-        const Point<dim> x(position(point, 0), position(point, 1), position(point, 2));
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            const unsigned int i       = (row * 77 + point) * dim + c;
-            const auto         exact_u = motion.displacement(x, time[row]), exact_v = motion.velocity(x, time[row]);
-            const auto         exact_stress = motion.stress(x, time[row]);
-            error                           = std::max({error, std::abs(u[i] - exact_u[c]) / exact_u.norm(),
-                                                        std::abs(v[i] - exact_v[c]) / exact_v.norm(),
-                                                        std::abs(stress[2 * (i - c) + c] - exact_stress[c][c]) / exact_stress.norm()});
-          }
-      }
-  BOOST_TEST(error < 1e-9);
-  const auto ray_time = file.open_group("ray").open_dataset("time").read<std::vector<double>>();
-  BOOST_TEST(ray_time.size() == 3u);
-  BOOST_TEST(ray_time[2] == 2e-2, boost::test_tools::tolerance(1e-12));
-}
-
-// A device that is always full: all processes get the same error with the name of the file.
-BOOST_AUTO_TEST_CASE(full_disk, *boost::unit_test::label("parallel"))
-{
-  if (!std::filesystem::exists("/dev/full"))
-    return;
-  const Folder folder;
-  const Mesh   mesh(Body::shell, 1, 1);
-  Sets         sets(array_scene);
-  sets.receivers.reinit(*mesh.discretization, soil_everywhere);
-  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    std::filesystem::create_symlink("/dev/full", folder.path + "/receivers-array.csv");
-  MPI_Barrier(MPI_COMM_WORLD);
-  BOOST_CHECK_EXCEPTION(sets.receivers.open(folder.path, 0., 1., nullptr), OutputError, [](const OutputError &error) {
-    return mentions(error, {"receivers-array.csv", "No space left"});
-  });
-}
-
-#ifndef DEBUG // deal.II's debug library aborts when HDF5 fails
-
-// The same for HDF5, whose failures deal.II hides in release mode; here the system refuses files above 20 kB. The sets are open
-// while the exception passes.
-BOOST_AUTO_TEST_CASE(full_disk_hdf5, *boost::unit_test::label("parallel"))
-{
-  const Folder folder;
-  const Mesh   mesh(Body::shell, 1, 1);
-  rlimit       limit;
-  getrlimit(RLIMIT_FSIZE, &limit);
-  const rlimit small{20000, limit.rlim_max};
-  const auto   old_handler = std::signal(SIGXFSZ, SIG_IGN);
-  setrlimit(RLIMIT_FSIZE, &small);
-  const auto run = [&]() {
-    Sets sets(R"(
-set Receivers = ray
-subsection Receivers
-  subsection ray
-    set Type     = line
-    set Start    = 0.7, 0.6, 0.5
-    set End      = 1.1, 1, 0.9
-    set Number   = 1000
-    set Interval = 1e-2
-  end
-end
-)");
-    sets.receivers.reinit(*mesh.discretization, soil_everywhere);
-    sets.receivers.open(folder.path, 0., 1., nullptr);
-    State<dim> state;
-    state.reinit(*mesh.discretization);
-    state.displacement.update_ghost_values();
-    for (; state.step <= 100; ++state.step, state.time += state.dt_last = 1e-2)
-      sets.receivers.record(state);
-    sets.receivers.finish();
-  };
-  BOOST_CHECK_EXCEPTION(run(), OutputError, [](const OutputError &error) { return mentions(error, {"receivers.h5"}); });
-  setrlimit(RLIMIT_FSIZE, &limit);
-  std::signal(SIGXFSZ, old_handler);
-  BOOST_CHECK_THROW(ReceiverStore(folder.path + "/missing/receivers.h5", MPI_COMM_WORLD), OutputError);
-}
-#endif
 
 BOOST_AUTO_TEST_CASE(wrong_sets)
 {

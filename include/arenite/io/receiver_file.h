@@ -2,7 +2,7 @@
 
 #include <arenite/base/errors.h>
 
-#include <deal.II/base/hdf5.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -18,7 +18,7 @@ struct ReceiverQuantities
   bool displacement = false, velocity = false, stress = false;
 };
 
-/// All points of a set at one time.
+/// Points of a set at one time.
 template <int dim>
 struct ReceiverRow
 {
@@ -27,47 +27,34 @@ struct ReceiverRow
   std::vector<dealii::SymmetricTensor<2, 3>> stress; ///< empty if not wanted
 };
 
-/// Destination of completed rows. Process 0 adds them; flush() writes what was added since the last time.
+/// Destination of completed rows. Each process adds the points of a range; flush() writes what was added since the last time.
 template <int dim>
 class ReceiverFile
 {
 public:
+  explicit ReceiverFile(const std::vector<unsigned int> &first_points)
+    : first_points(first_points)
+  {}
   virtual ~ReceiverFile() = default;
 
-  /// On process 0.
+  /// The points of this process at one time; on all processes, also on those without points.
   virtual void add(const ReceiverRow<dim> &) = 0;
 
   /// Collective; raises OutputError on all processes if something could not be written.
   virtual void flush() = 0;
+
+  /// Process i adds the points first_points[i] <= point < first_points[i + 1].
+  const std::vector<unsigned int> first_points;
 };
 
-/// One file receivers.h5 for all lines and planes of a scene. Process 0 has the rows and writes them alone: a collective write
-/// that fails on one process (disk full) leaves the others waiting for ever in Open MPI.
-class ReceiverStore
-{
-public:
-  /// Creates the file, or replaces one of the same name.
-  ReceiverStore(const std::string &file_name, MPI_Comm);
-  ~ReceiverStore();
+/// ReceiverFile::first_points with equal shares for all processes.
+std::vector<unsigned int> divide_points(unsigned int n_points, MPI_Comm);
 
-  const std::string                   file_name;
-  const MPI_Comm                      communicator;
-  std::unique_ptr<dealii::HDF5::File> file; ///< on process 0
-};
-
-/// Table with the columns `t [s]`, then `<point>.<quantity>_<component> [unit]`.
+/// Table with the columns `t [s]`, then `<point>.<quantity>_<component> [unit]`; process 0 has all points.
 template <int dim>
 std::unique_ptr<ReceiverFile<dim>> make_receiver_table(const std::string              &file_name,
                                                        const std::vector<std::string> &names,
                                                        const ReceiverQuantities &quantities, MPI_Comm communicator);
-
-/// Group @p set of the store with the datasets time[n_rows], position[point][3], displacement and velocity
-/// [n_rows][point][component] and stress[n_rows][point][xx, yy, zz, xy, xz, yz]; attributes `unit` and `components`.
-/// The time of rows that were never reached is NaN.
-template <int dim>
-std::unique_ptr<ReceiverFile<dim>> make_receiver_group(std::shared_ptr<ReceiverStore> store, const std::string &set,
-                                                       const std::vector<dealii::Point<dim>> &positions,
-                                                       const ReceiverQuantities &quantities, std::size_t n_rows);
 
 /// Write a small text file from process 0; raises OutputError on all processes.
 void write_text_file(const std::string &file_name, const std::string &text, MPI_Comm);

@@ -54,9 +54,11 @@ public:
   void reinit(const ExactSolution<dim> &, const std::vector<dealii::Point<dim>> &points, const ReceiverQuantities &);
   void add(const ReceiverRow<dim> &);
 
-  /// E_t of each recorded quantity for one point, or for all points together.
+  /// E_t of each recorded quantity for one point.
   std::map<std::string, double> of_point(unsigned int point) const;
-  std::map<std::string, double> of_set() const;
+
+  /// The same for the points of all processes together. Collective.
+  std::map<std::string, double> of_set(MPI_Comm) const;
 
 private:
   struct Square
@@ -85,14 +87,14 @@ class ReceiverNorms
 public:
   void add(const ReceiverRow<dim> &row);
 
-  /// "displacement.rms" ...; quantities that are not recorded are left out.
-  std::map<std::string, double> of_set() const;
+  /// "displacement.rms" ... over the points of all processes; quantities that are not recorded are left out. Collective.
+  std::map<std::string, double> of_set(MPI_Comm) const;
 
 private:
   struct Norm
   {
-    double integral = 0., last = 0., peak = 0.;
-    bool   present = false;
+    double      integral = 0., last = 0., peak = 0.; ///< integral of the sum over points
+    std::size_t n_points = 0;
   };
   Norm   displacement, velocity, stress;
   double first_time = 0., last_time = 0.;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <arenite/io/receiver_file.h>
 #include <arenite/io/receiver_history.h>
 #include <arenite/io/receiver_points.h>
+#include <arenite/io/receiver_store.h>
 #include <arenite/mechanics/state.h>
 
 namespace Arenite
@@ -11,7 +11,8 @@ namespace Arenite
 ///
 /// Values are means over all cells that touch a point, so they do not depend on the partition; displacements are continuous
 /// anyway. Each process adds up what its cells contribute; the sum over processes is only formed when the buffer is full, and so
-/// is everything that follows from it: velocities, exact solutions, text. The buffer is allocated once.
+/// is everything that follows from it: velocities, exact solutions, text. Of a table process 0 gets the sums of all points; of a
+/// line or plane each process gets those of its share of the points. The buffer is allocated once.
 template <int dim>
 class Receivers
 {
@@ -27,7 +28,7 @@ public:
   void reinit(const Discretization<dim> &, MaterialOfBlock);
 
   /// Create the files in @p directory; after the first reinit(). @p exact may be null. Collective. Lines and planes share the
-  /// store, which the first of them creates.
+  /// store, whose file is created when all of them are known.
   void open(const std::string &directory, double start_time, double end_time, const ExactSolution<dim> *exact,
             std::shared_ptr<ReceiverStore> &store);
 
@@ -63,11 +64,13 @@ private:
     double       time, dt;
   };
 
-  bool due(const State<dim> &);
-  void push(Kind, const VectorType &, const State<dim> &);
-  void flush();
-  void process_buffer();
-  void write_errors();
+  bool                due(const State<dim> &);
+  void                push(Kind, const VectorType &, const State<dim> &);
+  void                flush();
+  std::vector<double> sums_of_own_points() const;
+  void                process(const std::vector<double> &sums);
+  void                emit(const ReceiverRow<dim> &);
+  void                write_errors();
 
   const std::string        name;
   std::string              path, directory;
@@ -92,7 +95,8 @@ private:
   bool         chained     = false; ///< the last record() put u of the step before into the buffer
   bool         row_is_open = false; ///< the last row still needs u of the next step
 
-  // process 0
+  // of the points of this process
+  unsigned int                       n_own_points = 0;
   VelocityHistory<dim>               history;
   ReceiverErrors<dim>                error_integrals;
   bool                               with_errors = false;

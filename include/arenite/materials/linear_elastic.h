@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <cmath>
 
 namespace Arenite
@@ -48,6 +50,19 @@ struct LinearElastic
     f("Poisson ratio", poisson_ratio(), "-");
     f("P-wave speed", p_wave_speed(), "m/s");
     f("S-wave speed", s_wave_speed(), "m/s");
+  }
+
+  /// Stress [Pa] of the displacement gradient H[i][j] = d u_i / d x_j; with dim < 3 the missing strains are zero.
+  template <int dim>
+  dealii::SymmetricTensor<2, 3> stress(const dealii::Tensor<2, dim> &gradient) const
+  {
+    dealii::SymmetricTensor<2, 3> result;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = i; j < dim; ++j)
+        result[i][j] = shear_modulus * (gradient[i][j] + gradient[j][i]);
+    for (unsigned int i = 0; i < 3; ++i)
+      result[i][i] += lame_lambda() * dealii::trace(gradient);
+    return result;
   }
 };
 } // namespace Arenite

@@ -74,9 +74,8 @@ public:
   dealii::SymmetricTensor<2, 3> stress(const LinearElastic &material, const VectorType &displacement,
                                        const unsigned int cell, const ShapeFactors<dim> &factors) const
   {
-    return stress(material, gradient(displacement, cell, factors));
+    return material.stress(gradient(displacement, cell, factors));
   }
-  static dealii::SymmetricTensor<2, 3> stress(const LinearElastic &, const dealii::Tensor<2, dim> &gradient);
 
   /// Box around the nodes of a cell, enlarged by a tenth of its longest side because curved cells leave it.
   dealii::BoundingBox<dim> enlarged_box(unsigned int cell) const;

@@ -18,7 +18,7 @@ struct ElementEnergy
 {
   V strain    = V(0.); ///< integral of sigma:epsilon/2 from the points, independent of the nodal forces
   V hourglass = V(0.); ///< stored in the stiffness form of the hourglass control
-  V viscous   = V(0.); ///< power that the viscous form dissipates [W]
+  V viscous   = V(0.); ///< power that the mean of the last two viscous forces takes out at the velocity given [W]
 };
 
 /// Cofactors C_jd = det(J) d xi_d / d x_j of the Jacobian J_jd = d x_j / d xi_d; returns det(J).

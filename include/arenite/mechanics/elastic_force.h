@@ -8,7 +8,6 @@
 #include <deal.II/base/exceptions.h>
 
 #include <cmath>
-#include <utility>
 
 namespace Arenite
 {
@@ -37,13 +36,14 @@ public:
     batches.reinit(discretization, block);
   }
 
-  void add(VectorType &force, const State<dim> &state, const CellPart part) const override
+  void add(VectorType &force, const State<dim> &state, const CellPart part, ViscousForces &record) const override
   {
     const auto p = static_cast<unsigned int>(part);
     if (viscous)
-      add_forces<true>(force, state, batches.part_begin[p], batches.part_begin[p + 1]);
+      add_forces<Element::has_hourglass_control>(force, state, batches.part_begin[p], batches.part_begin[p + 1],
+                                                 record);
     else
-      add_forces<false>(force, state, batches.part_begin[p], batches.part_begin[p + 1]);
+      add_forces<false>(force, state, batches.part_begin[p], batches.part_begin[p + 1], record);
   }
 
   BlockEnergy energy(const State<dim> &state) const override
@@ -51,19 +51,15 @@ public:
     BlockEnergy total;
     for (unsigned int b = 0; b < batches.size(); ++b)
       {
-        Number x[dim][n_nodes], u[dim][n_nodes], v[dim][n_nodes];
+        Number x[dim][n_nodes], u[dim][n_nodes], v[dim][n_nodes] = {};
         load(b, positions->begin(), x);
         load(b, state.displacement.begin(), u);
+        Amplitudes            Q = {};
         ElementEnergy<Number> energy;
         if (viscous)
-          {
-            for (auto &component : v)
-              for (auto &value : component)
-                value = Number(0.);
-            element_force<true, true>(x, u, v, energy);
-          }
+          element_force<true, Element::has_hourglass_control>(x, u, v, Q, energy);
         else
-          element_force<true, false>(x, u, v, energy);
+          element_force<true, false>(x, u, v, Q, energy);
         for (int l = 0; l < batches.active[b]; ++l)
           {
             total.strain += lane(energy.strain, l);
@@ -110,8 +106,8 @@ public:
       }
   }
 
-  bool   uses_velocity() const override { return viscous; }
-  double take_viscous_power() const override { return std::exchange(viscous_power, 0.); }
+  bool        uses_velocity() const override { return viscous; }
+  std::size_t n_viscous_amplitudes() const override { return viscous ? batches.size() * n_amplitudes * W : 0; }
 
   const LinearElastic &material() const override { return law; }
 
@@ -121,6 +117,9 @@ public:
   }
 
 private:
+  static constexpr int n_amplitudes = 4 * dim; ///< per cell
+  using Amplitudes                  = Number[dim][4];
+
   const unsigned int *entries(const unsigned int batch) const { return &batches.entries[batch * n_nodes * W]; }
 
   void load(const unsigned int batch, const double *vector, Number (&values)[dim][n_nodes]) const
@@ -130,39 +129,57 @@ private:
 
   template <bool with_energy, bool with_viscosity>
   ARENITE_INLINE void element_force(const Number (&x)[dim][n_nodes], Number (&u)[dim][n_nodes],
-                                    Number (&v)[dim][n_nodes], ElementEnergy<Number> &energy) const
+                                    Number (&v)[dim][n_nodes], Amplitudes &Q, ElementEnergy<Number> &energy) const
   {
     if constexpr (Element::has_hourglass_control)
-      Element::template internal_force<with_energy, with_viscosity>(x, u, v, moduli, energy);
+      Element::template internal_force<with_energy, with_viscosity>(x, u, v, Q, moduli, energy);
     else
       {
         (void)v;
+        (void)Q;
         Element::template internal_force<with_energy>(x, u, moduli, energy);
       }
   }
 
   template <bool with_viscosity>
-  void add_forces(VectorType &force, const State<dim> &state, const unsigned int begin, const unsigned int end) const
+  void add_forces(VectorType &force, const State<dim> &state, const unsigned int begin, const unsigned int end,
+                  ViscousForces &record) const
   {
     const double *X = positions->begin(), *U = state.displacement.begin(), *V = state.half_velocity.begin();
-    double       *F = force.begin();
+    double       *F = force.begin(), *amplitudes = record.amplitude.empty() ? nullptr : record.amplitude.begin();
+    double        power = 0.;
     for (unsigned int b = begin; b < end; ++b)
       {
         Number                x[dim][n_nodes], u[dim][n_nodes], v[dim][n_nodes];
+        Amplitudes            Q;
         ElementEnergy<Number> energy;
         gather<dim, W, n_nodes>(X, entries(b), x);
         gather<dim, W, n_nodes>(U, entries(b), u);
         if constexpr (with_viscosity)
-          gather<dim, W, n_nodes>(V, entries(b), v);
-        element_force<false, with_viscosity>(x, u, v, energy);
+          {
+            gather<dim, W, n_nodes>(V, entries(b), v);
+            for (int k = 0; k < n_amplitudes; ++k)
+              if (amplitudes)
+                Q[k / 4][k % 4] = Arenite::load<Number>(amplitudes + (b * n_amplitudes + k) * W);
+              else
+                Q[k / 4][k % 4] = Number(0.);
+          }
+        element_force<false, with_viscosity>(x, u, v, Q, energy);
         if constexpr (with_viscosity)
-          for (int l = 0; l < batches.active[b]; ++l)
-            viscous_power += lane(energy.viscous, l);
+          if (amplitudes)
+            {
+              for (int k = 0; k < n_amplitudes; ++k)
+                Arenite::store<Number>(Q[k / 4][k % 4], amplitudes + (b * n_amplitudes + k) * W);
+              for (int l = 0; l < batches.active[b]; ++l)
+                power += lane(energy.viscous, l);
+            }
         scatter_add<dim, W, n_nodes>(F, entries(b), u, batches.active[b]);
       }
+    record.power += power;
   }
 
-  /// Largest eigenvalue of M^-1 K of the element itself. The start vector has a part in every mode and does not depend on
+  /// Largest eigenvalue of M^-1 K of the element itself, with viscous forces lambda = largest of M^-1 (K + sqrt(lambda) C): the
+  /// force at v = sqrt(lambda) y, with the lambda reached so far. The start vector has a part in every mode and does not depend on
   /// ranks; 60 iterations leave the Rayleigh quotient at most 1 % below the eigenvalue (tests/mechanics/stable_step.cc).
   Number power_iteration(const Number (&x)[dim][n_nodes]) const
   {
@@ -173,18 +190,20 @@ private:
         y[c][n] = Number(std::sin(1. + 2.3 * n * n + 1.7 * c * (n + 1)));
     for (unsigned int iteration = 0; iteration < 60; ++iteration)
       {
-        Number z[dim][n_nodes], yy = Number(0.), yz = Number(0.);
+        Number       z[dim][n_nodes], yy = Number(0.), yz = Number(0.);
+        const Number rate = square_root(lambda);
         for (int c = 0; c < dim; ++c)
           for (int n = 0; n < n_nodes; ++n)
             {
               z[c][n] = y[c][n];
-              v[c][n] = Number(0.);
+              v[c][n] = rate * y[c][n];
             }
         ElementEnergy<Number> unused;
+        Amplitudes            Q = {};
         if (viscous)
-          element_force<false, true>(x, z, v, unused);
+          element_force<false, Element::has_hourglass_control>(x, z, v, Q, unused);
         else
-          element_force<false, false>(x, z, v, unused);
+          element_force<false, false>(x, z, v, Q, unused);
         for (int c = 0; c < dim; ++c)
           for (int n = 0; n < n_nodes; ++n)
             {
@@ -192,7 +211,9 @@ private:
               yy += y[c][n] * y[c][n] * volume[n];
               z[c][n] = z[c][n] / volume[n];
             }
-        lambda             = -yz / yy * (1. / law.density);
+        lambda = -yz / yy * (1. / law.density);
+        if (viscous && iteration == 0)
+          continue; // the rate was zero: K alone would take the hourglass patterns out of y for good
         const Number scale = Number(1. / law.density) / lambda;
         for (int c = 0; c < dim; ++c)
           for (int n = 0; n < n_nodes; ++n)
@@ -207,7 +228,6 @@ private:
   bool                             viscous   = false;
   const VectorType                *positions = nullptr;
   CellBatches<dim, W>              batches;
-  mutable double                   viscous_power = 0.;
 };
 
 template <int dim, int W>

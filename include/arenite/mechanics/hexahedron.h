@@ -163,11 +163,11 @@ struct FullHexahedron
       }
   }
 
-  /// Row sums of the consistent mass over the density: integral of N_i [m^3], 2x2x2 Gauss (exact).
-  template <typename V>
-  static void nodal_volume(const V (&x)[3][8], V (&volume)[8])
+  /// visit(q, det, C) at the Gauss points: det(J) and the cofactors C_id = det(J) d xi_d / d x_i of the Jacobian.
+  template <typename V, typename Visit>
+  static void for_each_gauss_point(const V (&x)[3][8], const Visit &visit)
   {
-    V gx[3][3][4], det[8];
+    V gx[3][3][4];
     for (int i = 0; i < 3; ++i)
       {
         V modes[8];
@@ -184,48 +184,41 @@ struct FullHexahedron
         for (int i = 0; i < 3; ++i)
           for (int k = 0; k < 3; ++k)
             J[i][k] = gx[i][k][o[k]];
-        det[q] = cofactors(J, C);
-      }
-    const double near = 0.5 + 0.5 / 1.7320508075688772935, far = 1. - near;
-    for (int n = 0; n < 8; ++n)
-      {
-        volume[n] = V(0.);
-        for (int q = 0; q < 8; ++q)
-          {
-            double N = 1.;
-            for (int b = 1; b < 8; b *= 2)
-              N *= ((n & b) == (q & b)) ? near : far;
-            volume[n] += N * det[q];
-          }
+        const V det = cofactors(J, C);
+        visit(q, det, C);
       }
   }
 
+  /// Row sums of the consistent mass over the density: integral of N_i [m^3], 2x2x2 Gauss (exact).
+  template <typename V>
+  static void nodal_volume(const V (&x)[3][8], V (&volume)[8])
+  {
+    const double near = 0.5 + 0.5 / 1.7320508075688772935, far = 1. - near;
+    for (int n = 0; n < 8; ++n)
+      volume[n] = V(0.);
+    for_each_gauss_point(x, [&](const int q, const V &det, const V(&)[3][3]) {
+      for (int n = 0; n < 8; ++n)
+        {
+          double N = 1.;
+          for (int b = 1; b < 8; b *= 2)
+            N *= ((n & b) == (q & b)) ? near : far;
+          volume[n] += N * det;
+        }
+    });
+  }
+
+  /// Largest squared Frobenius norm of the inverse Jacobian over the Gauss points [1/m^2]: how small the cell is.
   template <typename V>
   static V inverse_size_squared(const V (&x)[3][8])
   {
-    V gx[3][3][4], largest = V(0.);
-    for (int i = 0; i < 3; ++i)
-      {
-        V modes[8];
-        for (int n = 0; n < 8; ++n)
-          modes[n] = x[i][n];
-        TrilinearModes::transform(modes);
-        reference_gradient(modes, gx[i]);
-      }
-    for (int q = 0; q < 8; ++q)
-      {
-        int o[3];
-        point_index(q, o);
-        V J[3][3], C[3][3], sum = V(0.);
-        for (int i = 0; i < 3; ++i)
-          for (int k = 0; k < 3; ++k)
-            J[i][k] = gx[i][k][o[k]];
-        const V det = cofactors(J, C);
-        for (int i = 0; i < 3; ++i)
-          for (int k = 0; k < 3; ++k)
-            sum += C[i][k] * C[i][k];
-        largest = max(largest, sum / (det * det));
-      }
+    V largest = V(0.);
+    for_each_gauss_point(x, [&](const int, const V &det, const V(&C)[3][3]) {
+      V sum = V(0.);
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+          sum += C[i][k] * C[i][k];
+      largest = max(largest, sum / (det * det));
+    });
     return largest;
   }
 };
@@ -270,9 +263,13 @@ struct OnePointHexahedron
     volume = volume * V(0.125);
   }
 
-  /// In addition to FullHexahedron::internal_force: @p v holds the velocities, read only with a viscous hourglass control.
+  /// Patterns without a mean gradient, in each direction.
+  static constexpr int n_patterns = 4;
+
+  /// In addition to FullHexahedron::internal_force, @p v: the velocities, consumed, and @p Q: the force amplitude on each pattern,
+  /// those of the last call in, those of this call out. Both are read only with a viscous hourglass control.
   template <bool with_energy, bool viscous, typename V>
-  static ARENITE_INLINE void internal_force(const V (&nodes)[3][8], V (&u)[3][8], V (&v)[3][8],
+  static ARENITE_INLINE void internal_force(const V (&nodes)[3][8], V (&u)[3][8], V (&v)[3][8], V (&Q)[3][n_patterns],
                                             const ElasticModuli &moduli, ElementEnergy<V> &energy)
   {
     using M = TrilinearModes;
@@ -312,7 +309,6 @@ struct OnePointHexahedron
       energy.strain += V(0.5) * volume * contract(stress, gradient);
 
     // stabilisation: force amplitude Q_ia on pattern a in direction i
-    V Q[3][4];
     if constexpr (viscous)
       {
         V G[3][3];
@@ -325,9 +321,9 @@ struct OnePointHexahedron
         for (int i = 0; i < 3; ++i)
           for (int a = 0; a < 4; ++a)
             {
-              const V rate = hourglass(v, G, i, a);
-              Q[i][a]      = c * rate;
-              energy.viscous += Q[i][a] * rate;
+              const V rate = hourglass(v, G, i, a), force = c * rate;
+              energy.viscous += V(0.5) * (Q[i][a] + force) * rate;
+              Q[i][a] = force;
             }
       }
     else

@@ -50,8 +50,9 @@ public:
   /// Rebuild the batches after a change of the mesh.
   virtual void reinit(const Discretization<dim> &) = 0;
 
-  /// force += -integral of sigma : grad N over the cells of @p part. Hanging entries receive forces like all others.
-  virtual void add(VectorType &force, const State<dim> &, CellPart part) const = 0;
+  /// force += -integral of sigma : grad N over the cells of @p part. Hanging entries receive forces like all others. Viscous forces
+  /// replace those of the last evaluation in @p viscous and add their power.
+  virtual void add(VectorType &force, const State<dim> &, CellPart part, ViscousForces &viscous) const = 0;
 
   /// Energies from the points, by a path that does not use the nodal forces.
   virtual BlockEnergy energy(const State<dim> &) const = 0;
@@ -59,8 +60,8 @@ public:
   /// True if the forces depend on state.half_velocity, which then needs valid ghosts and hanging nodes.
   virtual bool uses_velocity() const { return false; }
 
-  /// Power that viscous hourglass forces took out of the cells in the calls of add() since the last call of this function [W].
-  virtual double take_viscous_power() const { return 0.; }
+  /// Size of ViscousForces::amplitude that add() needs to keep a record; 0 without viscous forces.
+  virtual std::size_t n_viscous_amplitudes() const { return 0; }
 
   /// mass += integral of rho N_i, one entry per node.
   virtual void add_mass(VectorType &mass) const = 0;
@@ -68,7 +69,8 @@ public:
   /// Squared Frobenius norm of the inverse Jacobian of each cell of the block, at its smallest point [1/m^2].
   virtual void inverse_size_squared(dealii::Vector<double> &per_cell) const = 0;
 
-  /// Largest eigenvalue of each element's own M^-1 K [1/s^2] by power iteration (from below).
+  /// Largest eigenvalue of each element's own M^-1 K [1/s^2] by power iteration (from below). With viscous forces -C v the fixed point
+  /// lambda of M^-1 (K + sqrt(lambda) C): the element alone is stable up to dt = 2/sqrt(lambda) in both cases.
   virtual void largest_eigenvalue(dealii::Vector<double> &per_cell) const = 0;
 
   virtual const LinearElastic &material() const = 0;

@@ -24,10 +24,6 @@ template <int dim>
 NodalStress<dim> nodal_stress(const Discretization<dim> &, const VectorType &displacement,
                               const std::vector<LinearElastic> &materials);
 
-/// The law for one point: stress [Pa] of the displacement gradient H[i][j] = d u_i / d x_j.
-template <int dim>
-dealii::SymmetricTensor<2, dim> elastic_stress(const LinearElastic &, const dealii::Tensor<2, dim> &gradient);
-
 /// Mean pressure [Pa], compression positive.
 template <int dim>
 double pressure(const dealii::SymmetricTensor<2, dim> &stress);

@@ -6,6 +6,10 @@ namespace Arenite
 {
 /// Courant limit dt < 2/omega_max of the central difference, omega_max^2 the largest eigenvalue of M^-1 K.
 ///
+/// Viscous hourglass forces -C v_{n-1/2} act with lag and shorten the step: it is stable as long as dt^2/4 K + dt/2 C <= M, hence up to
+/// dt = 2/sqrt(lambda) with lambda the largest eigenvalue of M^-1 (K + sqrt(lambda) C), for one mode dt = (2/omega)(sqrt(1 + xi^2) - xi).
+/// The right-hand side grows less than lambda, so that any lambda above its right-hand side is safe, and that side is the better value.
+///
 /// Two estimates. (1) The largest eigenvalue of each element alone bounds the assembled one from above (Irons & Treharne, 1971),
 /// hanging nodes with row-sum masses included; it is cheap and knows the place, but wastes a quarter to a half of the step.
 /// (2) Lanczos iterations on the assembled system come from below; the residual and a margin are added. They go on
@@ -43,14 +47,17 @@ public:
 
 private:
   double element_bound(const Dynamics<dim> &);
+  double assembled_bound(Dynamics<dim> &, double elements);
 
-  double             courant = 0.9, fixed = 0., largest = 0.;
-  double             critical_step = 0., element_step = 0.;
+  double courant = 0.9, fixed = 0., largest = 0.;
+  double critical_step = 0., element_step = 0.;
+  double rate_ratio = 1.; ///< omega_max over that of the elements on the last mesh, where the next search starts
   dealii::Point<dim> place;
 };
 
-/// Largest eigenvalue of M^-1 K by Lanczos' method, until the residual is @p tolerance of it or @p n_iterations are done: the Ritz value plus its residual [1/s^2]. The start
-/// vector is a function of place, so that the result does not depend on the partition (but for round-off). Collective.
+/// Largest eigenvalue of M^-1 (K + @p rate C), C v the viscous forces, by Lanczos' method, until the residual is @p tolerance of it
+/// or @p n_iterations are done: the Ritz value plus its residual [1/s^2]. The start vector is a function of place, so that the
+/// result does not depend on the partition (but for round-off). Collective.
 template <int dim>
-double largest_eigenvalue(Dynamics<dim> &, unsigned int n_iterations, double tolerance);
+double largest_eigenvalue(Dynamics<dim> &, unsigned int n_iterations, double tolerance, double rate = 0.);
 } // namespace Arenite

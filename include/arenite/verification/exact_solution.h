@@ -37,21 +37,6 @@ public:
   virtual void finalize() {}
 };
 
-/// sigma = lambda tr(grad u) I + G (grad u + grad u^T) with gradient[i][j] = du_i/dx_j; components beyond dim have no
-/// strain.
-template <int dim>
-dealii::SymmetricTensor<2, 3> linear_elastic_stress(const LinearElastic          &material,
-                                                    const dealii::Tensor<2, dim> &gradient)
-{
-  dealii::SymmetricTensor<2, 3> stress;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      stress[i][j] = material.shear_modulus * (gradient[i][j] + gradient[j][i]);
-  for (unsigned int i = 0; i < 3; ++i)
-    stress[i][i] += material.lame_lambda() * dealii::trace(gradient);
-  return stress;
-}
-
 /// Stress of a spherically symmetric state: s_tt I + (s_rr - s_tt) n n^T with the radial direction @p n.
 template <int dim>
 dealii::SymmetricTensor<2, 3> spherical_stress(const double radial_stress, const double hoop_stress,
