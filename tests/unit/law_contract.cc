@@ -10,7 +10,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <Sacado_Fad_SimpleFad.hpp>
-#include <Sacado_No_Kokkos.hpp>
+#include <Sacado.hpp>
 #include <cmath>
 #include <random>
 #include <set>
