@@ -10,8 +10,9 @@
 #include <boost/test/unit_test.hpp>
 
 #include <Sacado_Fad_SimpleFad.hpp>
-#include <Sacado.hpp>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 #include <string>

@@ -64,7 +64,7 @@ struct ConstantStiffness
 template <typename Stiffness>
 struct ViscoplasticCap
 {
-  static constexpr const char *name = "viscoplastic cap";
+  static constexpr const char *name = Stiffness::law_name;
   static constexpr const char *description =
     "Soil: failure surface, hardening cap and tension cut-off with overstress viscosity.";
 
