@@ -175,7 +175,8 @@ BOOST_AUTO_TEST_CASE(friction)
   BOOST_TEST(pressure(point.stress) == -1e5, tolerance(1e-12));
   BOOST_TEST(root(point) < 1.); // no strength: 1e4 - 0.6 1e5 < 0
 
-  law.strength.rate_coefficient = .05;
+  // 1 + 0.02 ln 1000 = 1.14: the elastic trial exceeds the static strength by no more than 16 % on this path
+  law.strength.rate_coefficient = .02;
   for (const double ratio : {.01, 1., 1000.})
     {
       law.strength.reference_rate = 2. / 3. * 1e-3 / 1e-6 / ratio;
@@ -183,7 +184,7 @@ BOOST_AUTO_TEST_CASE(friction)
       for (int i = 0; i < 60; ++i)
         rated.strain(uniaxial(-1e-3), 1e-6);
       const double F = std::min(2e7, 1e4 + .6 * pressure(rated.stress));
-      BOOST_TEST(root(rated) == F * (1. + .05 * std::max(0., std::log(ratio))), tolerance(1e-12));
+      BOOST_TEST(root(rated) == F * (1. + .02 * std::max(0., std::log(ratio))), tolerance(1e-12));
     }
 }
 
@@ -217,7 +218,9 @@ BOOST_AUTO_TEST_CASE(random_paths)
                 }
               largest = std::max(largest, std::abs(point.work));
             }
-          BOOST_TEST_REQUIRE(point.response.stored / point.density + point.dissipated == point.work, tolerance(1e-8));
+          // round-off of sums whose terms are as large as the largest work on the path
+          BOOST_TEST_REQUIRE(std::abs(point.response.stored / point.density + point.dissipated - point.work) <
+                             1e-11 * largest);
           worst = std::min(worst, point.work / largest);
         }
       if (kind == Kind::none)
