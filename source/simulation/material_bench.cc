@@ -102,7 +102,7 @@ void MaterialBench::add_row(Table &table, const PointState &ahead, const PointSt
     row.push_back(s.strain[k]);
   for (const int k : order)
     row.push_back(s.stress[k]);
-  const double p = pressure(s.stress), J2 = second_invariant(deviator(s.stress));
+  const double p = pressure(s.stress) + 0., J2 = second_invariant(deviator(s.stress));
   row.insert(row.end(), {p, std::sqrt(3. * J2), 3. * p, std::sqrt(J2), s.density});
   row.insert(row.end(), s.history.begin(), s.history.end());
   row.insert(row.end(), {s.work, s.stored, s.dissipated, s.stored_by_volume, s.wave_speed, s.substeps});
