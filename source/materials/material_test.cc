@@ -320,9 +320,9 @@ void run_path(MaterialPoint &point, const StrainPath &path, const unsigned int s
     }
 }
 
-ShockState shock_state(const PointState &ahead, const PointState &behind)
+ShockJump shock_jump(const PointState &ahead, const PointState &behind)
 {
-  ShockState   shock;
+  ShockJump    shock;
   const double compression = 1. - ahead.density / behind.density, rise = ahead.stress[0] - behind.stress[0];
   if (!(compression > 0. && rise > 0.))
     return shock;

@@ -108,7 +108,7 @@ void MaterialBench::add_row(Table &table, const PointState &ahead, const PointSt
   row.insert(row.end(), {s.work, s.stored, s.dissipated, s.stored_by_volume, s.wave_speed, s.substeps});
   if (test.type == "Hugoniot")
     {
-      const ShockState shock = shock_state(ahead, s);
+      const ShockJump shock = shock_jump(ahead, s);
       row.insert(row.end(), {shock.shock_speed, shock.particle_speed, shock.energy});
     }
   table.rows.push_back(row);

@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(cycles_and_shocks)
   const auto shock =
     run(elastic(), "set Type = Hugoniot\nset Strains = -0.1\nset States = jumps\nset Rows = 4\n",
         [&](const PointState &s) {
-          const ShockState h = shock_state(ahead, s);
+          const ShockJump h = shock_jump(ahead, s);
           BOOST_TEST(2000. * h.shock_speed == s.density * (h.shock_speed - h.particle_speed),
                      boost::test_tools::tolerance(1e-12));
           BOOST_TEST(-s.stress[0] == 2000. * h.shock_speed * h.particle_speed, boost::test_tools::tolerance(1e-12));

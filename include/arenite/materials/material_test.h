@@ -81,11 +81,11 @@ void run_path(MaterialPoint &point, const StrainPath &, unsigned int steps_per_r
 /// Shock from the state 0 (at rest) to the state 1: conservation of mass and momentum.
 ///
 ///   Us^2 = (sigma_0 - sigma_1)/(rho_0 (1 - rho_0/rho_1)),   up = (1 - rho_0/rho_1) Us      (sigma: 11, tension positive)
-struct ShockState
+struct ShockJump
 {
   double shock_speed = 0., particle_speed = 0.; ///< [m/s], relative to the material ahead
   /// Energy per reference volume that the shock adds, (sigma_0 + sigma_1)/2 (rho_0/rho_1 - 1) [J/m^3]
   double energy = 0.;
 };
-ShockState shock_state(const PointState &ahead, const PointState &behind);
+ShockJump shock_jump(const PointState &ahead, const PointState &behind);
 } // namespace Arenite

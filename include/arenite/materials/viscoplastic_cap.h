@@ -59,8 +59,8 @@ struct ConstantStiffness
 /// time, sigma = (sigma_trial + (dt/tau) sigma_inf)/(1 + dt/tau), X alike. Only compaction hardens the cap. Backward Euler,
 /// first order in the step; a step whose strain is large against the surface is divided.
 ///
-/// Tension opens a gap: the volume strain of the tension cut-off is kept as `separation` and must be closed, at constant
-/// stress, before the pores can be compressed again.
+/// Tension opens a gap: the volume strain of the tension cut-off is kept as `separation` and must be closed, without pressure, before
+/// the pores can be compressed again.
 template <typename Stiffness>
 struct ViscoplasticCap
 {
@@ -229,7 +229,9 @@ private:
     Number volume_strain = trace(strain), closing = Number(0.);
     if (gap_closure && any_of(history.separation > Number(0.)))
       {
-        closing = min(max(Number(-volume_strain), Number(0.)), history.separation);
+        // an open gap carries no pressure: tension is unloaded first, then the gap closes, then pores are compressed
+        const Number unloading = max(Number(trace(stress)), Number(0.)) / (Number(3.) * K);
+        closing                = min(max(Number(-volume_strain - unloading), Number(0.)), history.separation);
         history.separation -= closing;
         volume_strain += closing;
       }
@@ -245,7 +247,7 @@ private:
     result.solve(t.I1, t.j, history.cap_junction);
     if (viscosity == Viscosity::duvaut_lions)
       {
-        const Number w = Number(dt / (relaxation_time + dt));
+        const Number w = Number(relaxation_time > 0. ? dt / (relaxation_time + dt) : 1.);
         result.I1      = t.I1 + w * (result.I1 - t.I1);
         result.j       = t.j + w * (result.j - t.j);
         if (any_of(result.xi > history.cap_junction))
