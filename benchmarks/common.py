@@ -78,6 +78,15 @@ def binary():
     return path
 
 
+def program(name):
+    """Build the program `name` of benchmarks/CMakeLists.txt; returns its path."""
+    build = Path(binary()).resolve().parent
+    done = subprocess.run(["cmake", "--build", build, "--target", name], capture_output=True, text=True)
+    if done.returncode != 0:
+        stop(f"the program {name} could not be built:\n" + "\n".join(done.stdout.splitlines()[-20:]))
+    return build / "benchmarks" / name
+
+
 def scratch():
     """A directory that lives as long as this process."""
     if not hasattr(scratch, "path"):

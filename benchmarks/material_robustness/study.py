@@ -5,11 +5,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import common
 
 study = common.Study(__file__)
-build = Path(common.binary()).resolve().parent
-program = build / "benchmarks" / "material_robustness"
-done = subprocess.run(["cmake", "--build", build, "--target", "material_robustness"], capture_output=True, text=True)
-if done.returncode != 0:
-    common.stop("the program could not be built:\n" + "\n".join(done.stdout.splitlines()[-20:]))
+program = common.program("material_robustness")
 
 updates = 1000000 if study.quick else 50000000  # about a quarter of them is plastic
 file = common.scratch().with_suffix(".json")

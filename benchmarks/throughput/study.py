@@ -8,11 +8,7 @@ from common import plt
 if os.environ.get("ARENITE_BENCH_QUICK") == "1" and "--quick" not in sys.argv:
     sys.argv.append("--quick")
 study = common.Study(__file__)
-build = Path(common.binary()).resolve().parent
-program = build / "benchmarks" / "throughput_benchmark"
-done = subprocess.run(["cmake", "--build", build, "--target", "throughput_benchmark"], capture_output=True, text=True)
-if done.returncode != 0:
-    common.stop("the program could not be built:\n" + "\n".join(done.stdout.splitlines()[-20:]))
+program = common.program("throughput_benchmark")
 
 # refinement: about 45 000, 300 000 and 2.6 million unknowns
 SIZES = {4: "small"} if study.quick else {5: "in L3", 6: "beyond L3"}
