@@ -8,15 +8,9 @@ namespace Arenite
 {
 std::string CapSurface::finalize()
 {
+  if (const std::string rule = finalize_failure(); !rule.empty())
+    return rule;
   std::ostringstream problem;
-  F0       = alpha - gamma;
-  F0_slope = beta * gamma + theta;
-  if (!(alpha > gamma && gamma >= 0.))
-    {
-      problem << "failure surface: alpha = " << alpha << " Pa must exceed gamma = " << gamma
-              << " Pa; a cohesionless apex is not supported, use a small alpha - gamma";
-      return problem.str();
-    }
   if (!(F0_slope > 0.))
     return "failure surface: beta gamma + theta must be positive";
   const double largest_tension = F0 / (2. * F0_slope);

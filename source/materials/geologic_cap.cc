@@ -8,14 +8,9 @@ namespace Arenite
 {
 std::string GeologicCapSurface::finalize()
 {
-  std::ostringstream problem;
-  F0                = alpha - gamma;
-  F0_slope          = beta * gamma + theta;
-  smallest_position = axis_ratio * F0;
-  if (!(alpha > gamma && gamma >= 0.))
-    problem << "failure surface: alpha = " << alpha << " Pa must exceed gamma = " << gamma
-            << " Pa; a cohesionless apex is not supported, use a small alpha - gamma";
-  return problem.str();
+  const std::string rule = finalize_failure();
+  smallest_position      = axis_ratio * F0;
+  return rule;
 }
 
 double GeologicCapSurface::junction(const double X) const
@@ -39,14 +34,7 @@ void GeologicCap::declare_parameters(Parameters &parameters)
 {
   path = parameters.current_path();
   constants.declare_parameters(parameters);
-  parameters.add_quantity("Failure alpha", surface.alpha, "Pa", positive,
-                          "Shear strength sqrt(J2) = alpha - gamma exp(-beta I1) + theta I1. Larger: stronger.");
-  parameters.add_quantity("Failure gamma", surface.gamma, "Pa", non_negative,
-                          "Strength that is missing at I1 = 0; below alpha. Larger: weaker at low pressure.");
-  parameters.add_quantity("Failure beta", surface.beta, "1/Pa", non_negative,
-                          "Decay of gamma with I1. Larger: full strength at lower pressure.");
-  parameters.add_quantity("Failure theta", surface.theta, "-", non_negative,
-                          "Friction: slope of the failure surface at high I1. Larger: more strength under pressure.");
+  surface.declare_failure(parameters);
   parameters.add_quantity("Cap axis ratio R", surface.axis_ratio, "-", positive,
                           "Length of the cap along I1 over its height. Larger: a flatter cap that begins earlier.");
   parameters.add_quantity("Initial cap position X0", surface.initial_position, "Pa", non_negative,

@@ -9,14 +9,7 @@ void ViscoplasticCap<Stiffness>::declare_parameters(Parameters &parameters)
 {
   path = parameters.current_path();
   stiffness.declare_parameters(parameters);
-  parameters.add_quantity("Failure alpha", surface.alpha, "Pa", positive,
-                          "Shear strength sqrt(J2) = alpha - gamma exp(-beta I1) + theta I1. Larger: stronger.");
-  parameters.add_quantity("Failure gamma", surface.gamma, "Pa", non_negative,
-                          "Strength that is missing at I1 = 0; below alpha. Larger: weaker at low pressure.");
-  parameters.add_quantity("Failure beta", surface.beta, "1/Pa", non_negative,
-                          "Decay of gamma with I1. Larger: full strength at lower pressure.");
-  parameters.add_quantity("Failure theta", surface.theta, "-", non_negative,
-                          "Friction: slope of the failure surface at high I1. Larger: more strength under pressure.");
+  surface.declare_failure(parameters);
   parameters.add_quantity("Cap axis ratio R", surface.axis_ratio, "-", positive,
                           "Length of the cap along I1 over its height. Larger: a flatter cap that begins earlier.");
   parameters.add_quantity("Initial cap position X0", surface.initial_position, "Pa", positive,

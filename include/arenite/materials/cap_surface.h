@@ -1,6 +1,6 @@
 #pragma once
 
-#include <arenite/base/number.h>
+#include <arenite/materials/failure_surface.h>
 
 #include <string>
 
@@ -22,12 +22,8 @@ namespace Arenite
 /// ratio, R^2 = X^2/(F0^2 + 2 X F0 F0'), so that the ellipse still meets the cut-off with a continuous normal at (0, F0).
 ///
 /// Roger (2015), equations (2.3.7)-(2.3.29); the explicit form in L and the small-cap rule are our own.
-struct CapSurface
+struct CapSurface : FailureSurface
 {
-  double alpha            = 0.; ///< [Pa], > gamma
-  double gamma            = 0.; ///< [Pa]
-  double beta             = 0.; ///< [1/Pa]
-  double theta            = 0.; ///< [-]
   double axis_ratio       = 4.; ///< R [-]
   double initial_position = 0.; ///< X0 on the I1 axis [Pa]
   double hardening_rate   = 0.; ///< D [1/Pa]
@@ -36,33 +32,11 @@ struct CapSurface
   bool   small_cap_rule   = false;
 
   // derived by finalize()
-  double F0 = 0., F0_slope = 0.;                                     ///< Fe(0) [Pa], Fe'(0) [-]
   double tension_center = 0., tension_axis = 0., tension_ratio = 1.; ///< C [Pa], B [Pa], r [-]
   double smallest_position = 0.;                                     ///< X_min [Pa]
 
   /// Derived constants. @return the rule that the parameters break, with the numbers; empty if all is well.
   std::string finalize();
-
-  template <typename Number>
-  struct Failure
-  {
-    Number value, slope, curvature; ///< Fe [Pa], Fe' [-], Fe'' [1/Pa]
-  };
-
-  /// Failure surface, continued by its tangent for I1 < 0.
-  template <typename Number>
-  Failure<Number> failure(const Number &I1) const
-  {
-    const Mask<Number> tension = I1 < Number(0.);
-    const Number       x       = select(tension, Number(0.), I1);
-    const Number       z       = gamma > 0. ? Number(gamma) * exponential(Number(Number(-beta) * x)) : Number(0.);
-    Failure<Number>    F;
-    F.slope = Number(beta) * z + Number(theta);
-    F.value =
-      select(tension, Number(Number(F0) + Number(F0_slope) * I1), Number(Number(alpha) - z + Number(theta) * x));
-    F.curvature = select(tension, Number(0.), Number(Number(-beta * beta) * z));
-    return F;
-  }
 
   /// The cap and its derivatives with respect to xi.
   template <typename Number>

@@ -18,41 +18,16 @@ namespace Arenite
 /// continued by its tangent.
 ///
 /// Sandler & Rubin, Int. J. Numer. Anal. Meth. Geomech. 3 (1979) 173-186; Simo, Ju, Pister & Taylor, J. Eng. Mech. 114 (1988).
-struct GeologicCapSurface
+struct GeologicCapSurface : FailureSurface
 {
-  double alpha = 0., gamma = 0., beta = 0., theta = 0.; ///< [Pa], [Pa], [1/Pa], [-]
-  double axis_ratio       = 4.;                         ///< R [-]
-  double initial_position = 0.;                         ///< X0 on the I1 axis [Pa]
-  double hardening_rate   = 0.;                         ///< D [1/Pa]
-  double hardening_limit  = 0.;                         ///< W [-]
+  double axis_ratio       = 4.; ///< R [-]
+  double initial_position = 0.; ///< X0 on the I1 axis [Pa]
+  double hardening_rate   = 0.; ///< D [1/Pa]
+  double hardening_limit  = 0.; ///< W [-]
 
-  double F0 = 0., F0_slope = 0.;
   double smallest_position = 0.; ///< X(kappa = 0) [Pa], a scale of stress
 
   std::string finalize();
-
-  template <typename Number>
-  struct Failure
-  {
-    Number value, slope, curvature;
-  };
-
-  /// Fe, without the tangent.
-  template <typename Number>
-  Failure<Number> exponential_failure(const Number &I1) const
-  {
-    const Number z = gamma > 0. ? Number(gamma) * exponential(Number(Number(-beta) * I1)) : Number(0.);
-    return {Number(alpha) - z + Number(theta) * I1, Number(beta) * z + Number(theta), Number(-beta * beta) * z};
-  }
-
-  template <typename Number>
-  Failure<Number> failure(const Number &I1) const
-  {
-    const Mask<Number>    tension = I1 < Number(0.);
-    const Failure<Number> F       = exponential_failure(select(tension, Number(0.), I1));
-    return {select(tension, Number(Number(F0) + Number(F0_slope) * I1), F.value), F.slope,
-            select(tension, Number(0.), F.curvature)};
-  }
 
   /// The cap as an ellipse with centre M = L, and its derivatives with respect to kappa.
   template <typename Number>
@@ -65,7 +40,7 @@ struct GeologicCapSurface
   Cap<Number> cap(const Number &kappa) const
   {
     const Mask<Number>    negative = kappa < Number(0.);
-    const Failure<Number> F        = exponential_failure(kappa);
+    const Failure<Number> F        = failure_expression(kappa);
     const Number          R = Number(axis_ratio), per_R = Number(1. / axis_ratio);
     Cap<Number>           cap;
     cap.X  = kappa + R * F.value;
