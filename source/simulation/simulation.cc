@@ -186,14 +186,7 @@ void Simulation<dim>::run(const OutputDirectory &directory)
   scene.receivers.reinit(discretization, material_of_block());
   scene.receivers.open(directory.path(), 0., scene.end_time, scene.exact_solution.get());
   scene.statistics.open(directory, log, 0., scene.end_time, scene.mesh.geometry->symmetry_factor());
-  const BlockEnergy stored = dynamics->stored_energy(state);
-  {
-    double kinetic = 0.;
-    for (unsigned int i = 0; i < state.half_velocity.locally_owned_size(); ++i)
-      if (state.inverse_mass.local_element(i) > 0.)
-        kinetic += 0.5 * std::pow(state.half_velocity.local_element(i), 2) / state.inverse_mass.local_element(i);
-    dynamics->balance.set_initial(Utilities::MPI::sum(kinetic + stored.strain + stored.hourglass, communicator));
-  }
+  dynamics->balance.set_initial(dynamics->total_energy(state, 0.));
 
   const auto start = Clock::now();
   try
