@@ -25,24 +25,31 @@ namespace Arenite
 {
 using Cap = ViscoplasticCap<ConstantStiffness>;
 
+/// What both caps have in common; the tension limits differ.
+template <typename Surface>
+void set_clayey_surface(Surface &surface)
+{
+  surface.alpha            = 64.2e3;
+  surface.gamma            = 5.89e3;
+  surface.beta             = 0.34283e-6;
+  surface.theta            = 0.18257;
+  surface.axis_ratio       = 5.;
+  surface.initial_position = 1e6;
+  surface.hardening_rate   = 9.52e-9;
+  surface.hardening_limit  = 0.2142;
+}
+
 Cap clayey_soil(const double exponent, const Cap::Viscosity viscosity = Cap::Viscosity::perzyna)
 {
   Cap law;
-  law.stiffness.elastic        = {1800., 106.4e6, 63.85e6};
-  law.surface.alpha            = 64.2e3;
-  law.surface.gamma            = 5.89e3;
-  law.surface.beta             = 0.34283e-6;
-  law.surface.theta            = 0.18257;
-  law.surface.axis_ratio       = 5.;
-  law.surface.initial_position = 1e6;
-  law.surface.hardening_rate   = 9.52e-9;
-  law.surface.hardening_limit  = 0.2142;
-  law.surface.tension_limit    = 5e3;
-  law.fluidity                 = 200.;
-  law.overstress               = 1e6;
-  law.exponent                 = exponent;
-  law.relaxation_time          = 1e-5;
-  law.viscosity                = viscosity;
+  law.stiffness.elastic = {1800., 106.4e6, 63.85e6};
+  set_clayey_surface(law.surface);
+  law.surface.tension_limit = 5e3;
+  law.fluidity              = 200.;
+  law.overstress            = 1e6;
+  law.exponent              = exponent;
+  law.relaxation_time       = 1e-5;
+  law.viscosity             = viscosity;
   if (const std::string problem = law.surface.finalize(); !problem.empty())
     throw std::runtime_error(problem);
   return law;
@@ -51,16 +58,9 @@ Cap clayey_soil(const double exponent, const Cap::Viscosity viscosity = Cap::Vis
 GeologicCap geologic_soil()
 {
   GeologicCap law;
-  law.elastic                  = {1800., 106.4e6, 63.85e6};
-  law.surface.alpha            = 64.2e3;
-  law.surface.gamma            = 5.89e3;
-  law.surface.beta             = 0.34283e-6;
-  law.surface.theta            = 0.18257;
-  law.surface.axis_ratio       = 5.;
-  law.surface.initial_position = 1e6;
-  law.surface.hardening_rate   = 9.52e-9;
-  law.surface.hardening_limit  = 0.2142;
-  law.tension_cutoff           = 5e3;
+  law.elastic = {1800., 106.4e6, 63.85e6};
+  set_clayey_surface(law.surface);
+  law.tension_cutoff = 5e3;
   if (const std::string problem = law.surface.finalize(); !problem.empty())
     throw std::runtime_error(problem);
   law.derive();
