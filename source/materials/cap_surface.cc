@@ -29,18 +29,19 @@ std::string CapSurface::finalize()
 
   const double h    = axis_ratio * F0_slope;
   smallest_position = axis_ratio * F0 * (h + std::sqrt(1. + h * h));
-  // junction L unique: dX/dL > 0; beyond beta L = 30 the exponential is gone
-  for (unsigned int i = 0; i <= 3000; ++i)
-    {
-      const double L = beta > 0. ? i * 0.01 / beta : 0.;
-      const auto   F = failure(L);
-      if (!(1. + axis_ratio * axis_ratio * (F.slope * F.slope + F.value * F.curvature) > 0.))
-        {
-          problem << "the junction of cap and failure surface is not unique near L = " << L
-                  << " Pa: reduce the cap axis ratio R, beta or gamma";
-          return problem.str();
-        }
-    }
+  // junction L unique: dX/dL > 0; thirty decay lengths from 0 the exponential is gone
+  for (const double decay_length : {beta > 0. ? 1. / beta : 0., friction_range})
+    for (unsigned int i = 0; i <= 3000; ++i)
+      {
+        const double L = i * 0.01 * decay_length;
+        const auto   F = failure(L);
+        if (!(1. + axis_ratio * axis_ratio * (F.slope * F.slope + F.value * F.curvature) > 0.))
+          {
+            problem << "the junction of cap and failure surface is not unique near L = " << L
+                    << " Pa: reduce the cap axis ratio R, beta or gamma";
+            return problem.str();
+          }
+      }
   if (initial_position < smallest_position && !small_cap_rule)
     {
       problem << "initial cap position X0 = " << initial_position << " Pa is below X_min = " << smallest_position

@@ -18,7 +18,14 @@ constexpr const char *constant_names[] = {"Young modulus", "Poisson ratio", "Bul
 void ElasticConstants::declare_parameters(Parameters &parameters)
 {
   path = parameters.current_path();
-  parameters.add_quantity("Density", density, "kg/m^3", positive, "Mass density. Soils: 1400 to 2300.");
+  soil.declare_parameters(parameters);
+  const bool has_state = soil.is_set(parameters);
+  if (has_state)
+    density = 1.; // not required then
+  parameters.add_quantity("Density", density, "kg/m^3", positive,
+                          "Mass density. Soils: 1400 to 2300. Not needed with a soil state.");
+  if (has_state)
+    parameters.leave_out_if_unset("Density");
   const std::string two = " Set two of the seven elastic constants.";
   parameters.add_quantity("Young modulus", young_modulus, "Pa", non_negative, "E." + two);
   parameters.add_quantity("Poisson ratio", poisson_ratio, "-", {-1., 0.5, true, true}, "nu, below 0.5." + two);
@@ -31,8 +38,13 @@ void ElasticConstants::declare_parameters(Parameters &parameters)
     parameters.leave_out_if_unset(name);
 }
 
-LinearElastic ElasticConstants::finalize(const Parameters &parameters) const
+LinearElastic ElasticConstants::finalize(const Parameters &parameters)
 {
+  if (soil.is_set(parameters))
+    {
+      density = soil.density_of_block(parameters, density);
+      state   = soil.finalize(parameters);
+    }
   const std::vector<std::string> names(std::begin(constant_names), std::end(constant_names));
   std::vector<std::string>       set;
   for (const auto &name : names)

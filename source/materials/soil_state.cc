@@ -1,7 +1,6 @@
 #include <arenite/materials/soil_state.h>
 
 #include <cmath>
-#include <iomanip>
 #include <sstream>
 
 namespace Arenite
@@ -23,31 +22,6 @@ double SoilState::suspension_modulus() const
 }
 
 double SoilState::suspension_speed() const { return std::sqrt(suspension_modulus() / density()); }
-
-std::string SoilState::description() const
-{
-  std::ostringstream text;
-  const auto         row = [&text](const char *name, const double value, const char *unit) {
-    text << "  " << std::left << std::setw(34) << name << std::right << std::setw(12) << std::setprecision(5) << value
-         << (*unit ? " " : "") << unit << "\n";
-  };
-  row("density", density(), "kg/m^3");
-  row("dry density", dry_density(), "kg/m^3");
-  row("density of the grains", grain_density(), "kg/m^3");
-  row("water content", water_content, "");
-  row("void ratio", void_ratio, "");
-  row("porosity", porosity(), "");
-  row("saturation", saturation(), "");
-  row("volume fraction of grains", solid_fraction(), "");
-  row("volume fraction of water", water_fraction(), "");
-  row("volume fraction of air", air_fraction(), "");
-  row("density without air", compacted_density(), "kg/m^3");
-  row("locking strain", locking_strain(), "");
-  row("bulk modulus of grains and water", compacted_modulus(), "Pa");
-  row("wave speed of grains and water", compacted_speed(), "m/s");
-  row("wave speed of the suspension", suspension_speed(), "m/s");
-  return text.str();
-}
 
 namespace
 {
@@ -243,5 +217,18 @@ SoilState SoilStateEntries::finalize(const Parameters &parameters) const
     {
       parameters.refuse(path, reason.what());
     }
+}
+
+double SoilStateEntries::density_of_block(const Parameters &parameters, const double entry) const
+{
+  const double      density = finalize(parameters).density();
+  const std::string name    = path.substr(0, path.rfind('/')) + "/Density";
+  if (parameters.is_set(name) && std::abs(entry - density) > tolerance * density)
+    {
+      std::ostringstream reason;
+      reason << "contradicts 'subsection Soil state', which gives " << density << " kg/m^3; leave one of them out";
+      parameters.refuse(name, reason.str());
+    }
+  return density;
 }
 } // namespace Arenite

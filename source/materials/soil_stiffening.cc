@@ -32,14 +32,14 @@ void SoilStiffening::finalize(const Parameters &parameters)
 {
   if (soil.is_set(parameters))
     {
-      const SoilState state = soil.finalize(parameters);
-      const auto      take  = [&](const char *entry, double &value, const double derived) {
+      state           = soil.finalize(parameters);
+      density         = soil.density_of_block(parameters, density);
+      const auto take = [&](const char *entry, double &value, const double derived) {
         if (!parameters.is_set(path + "/" + entry))
           value = derived;
       };
-      take("Density", density, state.density());
-      take("Density without air", compacted_density, state.compacted_density());
-      take("Bulk modulus without air", compacted_modulus, state.compacted_modulus());
+      take("Density without air", compacted_density, state->compacted_density());
+      take("Bulk modulus without air", compacted_modulus, state->compacted_modulus());
     }
   const std::string reason = prepare();
   if (!reason.empty())

@@ -26,7 +26,7 @@ void SoilStiffness::finalize(const Parameters &parameters)
 std::string SoilStiffness::adopt_hardening_limit(double &W, const bool is_set)
 {
   if (!soil.porous())
-    return "a saturated soil has no air whose closing the cap could describe; choose a law with an equation of state";
+    return "a saturated soil has no air whose closing the cap could describe; choose the law 'undrained cap'";
   const double locking = std::log(soil.compacted_density / soil.density);
   if (!is_set)
     W = locking;

@@ -9,6 +9,14 @@ void ThreePhaseMixture::declare_parameters(Parameters &parameters)
 {
   path = parameters.current_path();
   soil.declare_parameters(parameters);
+  declare_phases(parameters);
+  parameters.add_quantity(
+    "Tension limit", tension_limit, "Pa", non_negative,
+    "T below the air pressure at rest, where a gap opens that must close before pressure returns.");
+}
+
+void ThreePhaseMixture::declare_phases(Parameters &parameters)
+{
   const Range above_one{1., 20., true, false};
   parameters.add_quantity("Exponent of air", exponent[0], "-", above_one,
                           "g of p V^g = const; 1.4 without exchange of heat.");
@@ -16,9 +24,6 @@ void ThreePhaseMixture::declare_parameters(Parameters &parameters)
                           "g of water, 7 (some authors 3). Stiffens above 0.1 GPa.");
   parameters.add_quantity("Exponent of grains", exponent[2], "-", above_one,
                           "g of the grains, 3 to 5. Stiffens above 1 GPa.");
-  parameters.add_quantity(
-    "Tension limit", tension_limit, "Pa", non_negative,
-    "T below the air pressure at rest, where a gap opens that must close before pressure returns.");
   parameters.add_quantity("Largest pressure", largest_pressure, "Pa", positive,
                           "End of the valid range; a larger one asks for a smaller time step.");
 }

@@ -60,6 +60,15 @@ void ViscoplasticCap<Stiffness>::finalize(const Parameters &parameters)
     parameters.refuse(path, problem);
 }
 
+template <typename Stiffness>
+std::vector<std::string> ViscoplasticCap<Stiffness>::warnings() const
+{
+  std::vector<std::string> sentences;
+  if (const std::string strength = surface.strength_warning(stiffness.largest_pressure()); !strength.empty())
+    sentences.push_back(strength);
+  return sentences;
+}
+
 template struct ViscoplasticCap<ConstantStiffness>;
 template struct ViscoplasticCap<SoilStiffness>;
 static_assert(IsMaterialLaw<ViscoplasticCap<ConstantStiffness>>::value);

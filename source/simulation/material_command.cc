@@ -96,6 +96,8 @@ void print_constants(Log &log, const MaterialBench &bench)
   log.line(bench.block + ": " + bench.law_name);
   for (const DerivedConstant &constant : bench.law->derived_constants())
     print(log, constant.name, constant.value, constant.unit);
+  for (const std::string &sentence : bench.law->warnings())
+    log.line("  Warning: " + sentence);
 }
 
 /// Test, save, and report one set of parameters. Rows that were reached before an alarm are saved, too.

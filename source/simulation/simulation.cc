@@ -1,4 +1,5 @@
 #include <arenite/base/errors.h>
+#include <arenite/base/values.h>
 #include <arenite/io/error_norms.h>
 #include <arenite/simulation/simulation.h>
 
@@ -127,6 +128,9 @@ void Simulation<dim>::describe() const
       const LinearElastic &m = scene.blocks[b].material;
       text << "Block      " << scene.blocks[b].name << ": " << dynamics->blocks[b]->description()
            << "; cp = " << m.p_wave_speed() << " m/s, cs = " << m.s_wave_speed() << " m/s\n";
+      scene.blocks[b].constants.for_each_constant([&](const char *name, const double value, const std::string &unit) {
+        text << "           " << name << ' ' << value << (has_unit(unit) ? " " + unit : "") << '\n';
+      });
     }
   for (const auto &load : dynamics->loads)
     text << "Load       " << load->name << ": " << load->description() << '\n';

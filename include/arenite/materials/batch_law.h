@@ -56,6 +56,7 @@ public:
   virtual std::vector<std::string>     history_names() const     = 0;
   virtual std::vector<double>          initial_history() const   = 0;
   virtual std::vector<DerivedConstant> derived_constants() const = 0;
+  virtual std::vector<std::string>     warnings() const          = 0; ///< sentences for the log
 };
 
 /// The history of W points to and from an array [n_history][lane], by for_each.
@@ -83,6 +84,14 @@ struct HasDerivedConstants : std::false_type
 template <typename Law>
 struct HasDerivedConstants<Law, std::void_t<decltype(std::declval<const Law &>().for_each_constant(
                                   std::declval<void (*)(const char *, double, const char *)>()))>> : std::true_type
+{};
+
+/// Laws may offer `std::vector<std::string> warnings() const`: parameters that are admissible and doubtful.
+template <typename Law, typename = void>
+struct HasWarnings : std::false_type
+{};
+template <typename Law>
+struct HasWarnings<Law, std::void_t<decltype(std::declval<const Law &>().warnings())>> : std::true_type
 {};
 
 /// @p Law on W lanes: loops over the points, everything inside is inlined.
@@ -171,6 +180,14 @@ public:
         constants.push_back({name, value, unit});
       });
     return constants;
+  }
+
+  std::vector<std::string> warnings() const override
+  {
+    if constexpr (HasWarnings<Law>::value)
+      return law.warnings();
+    else
+      return {};
   }
 
   Law law;

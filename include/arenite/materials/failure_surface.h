@@ -3,6 +3,7 @@
 #include <arenite/base/number.h>
 #include <arenite/base/parameters.h>
 
+#include <cmath>
 #include <string>
 
 namespace Arenite
@@ -12,20 +13,32 @@ namespace Arenite
 ///   sqrt(J2) = Fe(I1) = alpha - gamma exp(-beta I1) + theta I1,      I1 = -tr(sigma), compression positive
 ///
 /// continued by its tangent for I1 < 0. Roger (2015), equation (2.3.7).
+///
+/// Sands lose their friction at high pressure: above some 0.5 GPa the strength no longer grows. With a largest strength F_max the last
+/// term bends into it, theta I1 -> theta I_s (1 - exp(-I1/I_s)) with I_s = (F_max - alpha)/theta: the same slope at low pressure, Fe -> F_max
+/// at high, concave between. Without one (F_max = 0) friction is unbounded. Ours.
 struct FailureSurface
 {
-  double alpha = 0.; ///< [Pa], > gamma
-  double gamma = 0.; ///< [Pa]
-  double beta  = 0.; ///< [1/Pa]
-  double theta = 0.; ///< [-]
+  double alpha            = 0.; ///< [Pa], > gamma
+  double gamma            = 0.; ///< [Pa]
+  double beta             = 0.; ///< [1/Pa]
+  double theta            = 0.; ///< [-]
+  double largest_strength = 0.; ///< F_max [Pa]; 0: none
 
   // derived by finalize_failure()
   double F0 = 0., F0_slope = 0.; ///< Fe(0) [Pa], Fe'(0) [-]
+  double friction_range = 0.;    ///< I_s [Pa]; 0: friction is not bounded
 
   void declare_failure(Parameters &);
 
   /// @return the rule that the parameters break, with the numbers; empty if all is well.
   std::string finalize_failure();
+
+  /// q = sqrt(3) Fe at the pressure @p p [Pa], for the log
+  double strength_q(const double p) const { return std::sqrt(3.) * failure(3. * p).value; }
+
+  /// A sentence if friction grows without bound in a range of pressure where that of sand does not; or nothing.
+  std::string strength_warning(double largest_pressure) const;
 
   template <typename Number>
   struct Failure
@@ -38,7 +51,11 @@ struct FailureSurface
   Failure<Number> failure_expression(const Number &I1) const
   {
     const Number z = gamma > 0. ? Number(gamma) * exponential(Number(Number(-beta) * I1)) : Number(0.);
-    return {Number(alpha) - z + Number(theta) * I1, Number(beta) * z + Number(theta), Number(-beta * beta) * z};
+    if (friction_range == 0.)
+      return {Number(alpha) - z + Number(theta) * I1, Number(beta) * z + Number(theta), Number(-beta * beta) * z};
+    const Number y = exponential(Number(Number(-1. / friction_range) * I1));
+    return {Number(alpha) - z + Number(theta * friction_range) * (Number(1.) - y), Number(beta) * z + Number(theta) * y,
+            Number(-beta * beta) * z - Number(theta / friction_range) * y};
   }
 
   template <typename Number>

@@ -147,6 +147,14 @@ struct GeologicCap
     history.kappa = max(history.kappa, Number(smallest_kappa));
   }
 
+  /// f(name, value, unit) for the log.
+  template <typename F>
+  void for_each_constant(F &&f) const
+  {
+    elastic.for_each_constant(f);
+    constants.for_each_constant(f);
+  }
+
   ElasticConstants   constants;
   LinearElastic      elastic;
   GeologicCapSurface surface;

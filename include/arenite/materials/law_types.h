@@ -3,6 +3,7 @@
 #include <arenite/materials/geologic_cap.h>
 #include <arenite/materials/linear_elastic_law.h>
 #include <arenite/materials/soil_stiffness.h>
+#include <arenite/materials/undrained_cap.h>
 #include <arenite/materials/viscoelastic.h>
 
 #include <tuple>
@@ -14,6 +15,7 @@ namespace Arenite
 using LawTypes = std::tuple<LinearElasticLaw,                   //
                             ViscoplasticCap<ConstantStiffness>, //
                             ViscoplasticCap<SoilStiffness>,     //
+                            UndrainedCap,                       //
                             GeologicCap,                        //
                             Viscoelastic                        //
                             >;

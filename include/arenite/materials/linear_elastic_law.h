@@ -44,6 +44,7 @@ struct LinearElasticLaw
   void for_each_constant(F &&f) const
   {
     elastic.for_each_constant(f);
+    constants.for_each_constant(f);
   }
 
   ElasticConstants constants;

@@ -69,6 +69,7 @@ struct NoHistory
 //
 //     template <typename F>
 //     void for_each_constant(F &&f) const;                         // may be left out: f(name, value, unit) of what the log shows
+//     std::vector<std::string> warnings() const;                   // may be left out: what is admissible and doubtful, for the log
 //   };
 //
 // A new law is complete with its line in law_types.h.

@@ -41,8 +41,26 @@ struct SoilState
   /// sqrt(K / rho) of the suspension [m/s]
   double suspension_speed() const;
 
-  /// The table of all the above for `arenite check`.
-  std::string description() const;
+  /// All of the above: f(name, value, unit) for the log.
+  template <typename F>
+  void for_each_constant(F &&f) const
+  {
+    f("Moist density", density(), "kg/m^3");
+    f("Dry density", dry_density(), "kg/m^3");
+    f("Density of the grains", grain_density(), "kg/m^3");
+    f("Water content", water_content, "-");
+    f("Void ratio", void_ratio, "-");
+    f("Porosity", porosity(), "-");
+    f("Saturation", saturation(), "-");
+    f("Volume fraction of grains", solid_fraction(), "-");
+    f("Volume fraction of water", water_fraction(), "-");
+    f("Volume fraction of air", air_fraction(), "-");
+    f("Density without air rho_L", compacted_density(), "kg/m^3");
+    f("Locking strain ln(rho_L/rho)", locking_strain(), "-");
+    f("Bulk modulus of grains and water K_wg", compacted_modulus(), "Pa");
+    f("Wave speed of grains and water", compacted_speed(), "m/s");
+    f("Wave speed of the suspension", suspension_speed(), "m/s");
+  }
 };
 
 /// What was measured of a soil; any sufficient part of it makes a SoilState.
@@ -72,6 +90,10 @@ public:
 
   /// Refuses the section with the reason that SoilMeasurements::state() gives.
   SoilState finalize(const Parameters &) const;
+
+  /// The density of a block that has an entry `Density` beside this section: that of the state. Refuses an entry that the scene sets
+  /// to something else (0.1 %).
+  double density_of_block(const Parameters &, double entry) const;
 
 private:
   double density = 0., dry_density = 0., water_content = 0., void_ratio = 0., porosity = 0., saturation = 0.,

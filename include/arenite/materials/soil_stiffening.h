@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace Arenite
@@ -57,6 +58,9 @@ struct SoilStiffening
   History<double> initial_history() const { return {density}; }
   double          reference_density() const { return density; }
   bool            porous() const { return compacted_density > density; }
+
+  /// After finalize(): the soil, if `subsection Soil state` describes it.
+  const std::optional<SoilState> &soil_state() const { return state; }
 
   /// K(rho_m) of unloading and of the next bit of first loading [Pa].
   template <typename Number>
@@ -166,9 +170,10 @@ struct SoilStiffening
   std::string prepare();
 
 private:
-  double           speed_bound = 0.;
-  SoilStateEntries soil;
-  std::string      path;
+  double                   speed_bound = 0.;
+  SoilStateEntries         soil;
+  std::optional<SoilState> state;
+  std::string              path;
 
   template <typename Number>
   static Number raised(const Number &x, const unsigned int m)

@@ -60,7 +60,10 @@ struct SoilStiffness
     f("Compacted density", soil.compacted_density, "kg/m^3");
     f("Bulk modulus K_0", soil.bulk_modulus, "Pa");
     f("Compacted modulus K_wg", soil.compacted_modulus, "Pa");
+    if (soil.soil_state())
+      soil.soil_state()->for_each_constant(f);
   }
+  double largest_pressure() const { return soil.largest_pressure; }
 
   SoilStiffening soil;
   std::string    shear_rule     = "auto";

@@ -38,6 +38,8 @@ struct ThreePhaseMixture
   double largest_pressure = 1e10;                         ///< end of the valid range [Pa]
 
   void declare_parameters(Parameters &);
+  /// The entries without the soil state and the tension limit.
+  void declare_phases(Parameters &);
   /// Refuses a soil without a state, T >= p_a with air, and V(p) that is not defined at -T.
   void finalize(const Parameters &);
 

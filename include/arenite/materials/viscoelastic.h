@@ -108,6 +108,14 @@ struct Viscoelastic
   void after_transfer(SymTensor<Number> &, History<Number> &) const
   {}
 
+  /// f(name, value, unit) for the log.
+  template <typename F>
+  void for_each_constant(F &&f) const
+  {
+    spring.for_each_constant(f);
+    constants.for_each_constant(f);
+  }
+
   ElasticConstants constants;
   LinearElastic    spring;
   std::string      model_name      = "standard linear solid";

@@ -5,6 +5,7 @@
 #include <arenite/materials/material_law.h>
 
 #include <string>
+#include <vector>
 
 namespace Arenite
 {
@@ -45,7 +46,10 @@ struct ConstantStiffness
   void for_each_constant(F &&f) const
   {
     elastic.for_each_constant(f);
+    constants.for_each_constant(f);
   }
+  /// End of the valid range [Pa]; 0 if the law does not say.
+  double largest_pressure() const { return 0.; }
 
   ElasticConstants constants;
   LinearElastic    elastic;
@@ -149,12 +153,16 @@ struct ViscoplasticCap
     stiffness.for_each_constant(f);
     const auto cap = surface.cap(surface.junction(surface.initial_position));
     f("Strength at I1 = 0", surface.F0, "Pa");
+    f("Strength q = sqrt(3 J2) at p = 1 GPa", surface.strength_q(1e9), "Pa");
     f("Largest tension limit T_max", surface.F0 / (2. * surface.F0_slope), "Pa");
     f("Smallest cap position X_min", surface.smallest_position, "Pa");
     f("Initial junction of cap and failure surface L", cap.L, "Pa");
     f("Initial centre of the cap M", cap.M, "Pa");
     f("Initial height of the cap b", cap.b, "Pa");
   }
+
+  /// Sentences with the numbers, for the log.
+  std::vector<std::string> warnings() const;
 
   Stiffness   stiffness;
   CapSurface  surface;
