@@ -53,8 +53,8 @@ struct FailureSurface
     const Number z = gamma > 0. ? Number(gamma) * exponential(Number(Number(-beta) * I1)) : Number(0.);
     if (friction_range == 0.)
       return {Number(alpha) - z + Number(theta) * I1, Number(beta) * z + Number(theta), Number(-beta * beta) * z};
-    const Number y = exponential(Number(Number(-1. / friction_range) * I1));
-    return {Number(alpha) - z + Number(theta * friction_range) * (Number(1.) - y), Number(beta) * z + Number(theta) * y,
+    const Number less = exponential_minus_one(Number(Number(-1. / friction_range) * I1)), y = Number(1.) + less;
+    return {Number(alpha) - z - Number(theta * friction_range) * less, Number(beta) * z + Number(theta) * y,
             Number(-beta * beta) * z - Number(theta / friction_range) * y};
   }
 
