@@ -170,6 +170,11 @@ for name, (found, result) in bars.items():
                      "axial within 10 % up to [MPa]": valid([row[1] for row in SLEEVE], deviation, 10),
                      "radial / axial over that measured": f"{min(ratio):.2f} to {max(ratio):.2f}"})
 found, slow = list(bars.values())[-2]
+axis_ratios = [.5, 1., 2., 4.]
+lateral_runs = material_runs.together(material_runs.run, [(BAR, settings({**found, "Cap axis ratio R": R})) for R in axis_ratios])
+lateral_rows = [{"R": R, **{f"at {100 * SLEEVE[i][0]:.0f} %": f"{sleeve(r)[i][1] / sleeve(r)[i][0]:.2f}" for i in (0, 4, 8, 11)}}
+                for R, r in zip(axis_ratios, lateral_runs)]
+lateral_rows.append({"R": "measured", **{f"at {100 * SLEEVE[i][0]:.0f} %": f"{SLEEVE[i][4] / SLEEVE[i][1]:.2f}" for i in (0, 4, 8, 11)}})
 bar_ratios = [.1, .3, 1., 3., 10.]
 bar_fast = material_runs.together(material_runs.run, [(BAR, {**settings(found), **viscous(r, 400 / r)}) for r in bar_ratios])
 shifts = [max(changes([s[0] for s in sleeve(r)], [s[0] for s in sleeve(slow)])[1:]) for r in bar_fast]
@@ -177,7 +182,7 @@ bound = math.exp(float(numpy.interp(math.log(10), [math.log(s) for s in shifts],
 rate_rows = [{"strain rate / eta": r, "eta [1/s]": 400 / r, "largest rise of the axial stress from 4 % on [%]": f"{s:.1f}"}
              for r, s in zip(bar_ratios, shifts)]
 
-for table in (shock_rows, rows, ranges, overstress, bar_fits, bar_rows, rate_rows):
+for table in (shock_rows, rows, ranges, overstress, bar_fits, bar_rows, lateral_rows, rate_rows):
     print("\n" + common.markdown_table(table), flush=True)
 print(f"10 % at the ratio {bound:.2f}: eta above {400 / bound:.0f} 1/s with f0 = 1 MPa, N = 1")
 checks.finish()
@@ -235,6 +240,10 @@ Dry Mason sand in a steel sleeve, 400 1/s. Deviation of the axial stress:
 {common.markdown_table(bar_fits)}
 
 {common.markdown_table(bar_rows)}
+
+Radial over axial stress with other axis ratios of the cap:
+
+{common.markdown_table(lateral_rows)}
 
 Overstress in the sleeve; 10 % are reached at a strain rate of {bound:.2f} eta, eta = {400 / bound:.0f} 1/s:
 
