@@ -117,6 +117,13 @@ ARENITE_INLINE bool any_of(const M &mask)
 {
   return std::experimental::any_of(mask);
 }
+/// Number of lanes where the mask holds.
+ARENITE_INLINE unsigned int count_of(const bool mask) { return mask; }
+template <typename M>
+ARENITE_INLINE unsigned int count_of(const M &mask)
+{
+  return std::experimental::popcount(mask);
+}
 
 // What the functions below do for a type of number. The primary template serves differentiable numbers, whose functions are found
 // by argument-dependent look-up; their derivatives follow the branch that the value takes.

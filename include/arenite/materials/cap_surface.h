@@ -1,6 +1,7 @@
 #pragma once
 
-#include <arenite/materials/failure_surface.h>
+#include <arenite/materials/bracketed_root.h>
+#include <arenite/materials/cap_parameters.h>
 
 #include <string>
 
@@ -22,14 +23,10 @@ namespace Arenite
 /// ratio, R^2 = X^2/(F0^2 + 2 X F0 F0'), so that the ellipse still meets the cut-off with a continuous normal at (0, F0).
 ///
 /// Roger (2015), equations (2.3.7)-(2.3.29); the explicit form in L and the small-cap rule are our own.
-struct CapSurface : FailureSurface
+struct CapSurface : CapParameters
 {
-  double axis_ratio       = 4.; ///< R [-]
-  double initial_position = 0.; ///< X0 on the I1 axis [Pa]
-  double hardening_rate   = 0.; ///< D [1/Pa]
-  double hardening_limit  = 0.; ///< W [-]
-  double tension_limit    = 0.; ///< T on the I1 axis [Pa]
-  bool   small_cap_rule   = false;
+  double tension_limit  = 0.; ///< T on the I1 axis [Pa]
+  bool   small_cap_rule = false;
 
   // derived by finalize()
   double tension_center = 0., tension_axis = 0., tension_ratio = 1.; ///< C [Pa], B [Pa], r [-]
@@ -125,25 +122,16 @@ struct CapSurface : FailureSurface
 
   /// The same on lanes, inside of [low, high] with X(low) <= X <= X(high).
   template <typename Number>
-  Number junction(const Number &X, Number low, Number high) const
+  Number junction(const Number &X, const Number &low, const Number &high, Iterations &iterations) const
   {
-    Number       xi     = high;
-    Mask<Number> active = high > low;
-    for (unsigned int i = 0; i < 100 && any_of(active); ++i)
-      {
-        const Cap<Number>  c      = cap(xi);
-        const Number       excess = c.X - X, newton = xi - excess / c.dX;
-        const Mask<Number> above  = excess > Number(0.);
-        low                       = select(Mask<Number>(active && !above), xi, low);
-        high                      = select(Mask<Number>(active && above), xi, high);
-        const Mask<Number> inside = !(newton < low) && !(newton > high);
-        const Number       next   = select(inside, newton, Number(Number(0.5) * (low + high)));
-        const Mask<Number> finished =
-          !(absolute(Number(next - xi)) > Number(1e-15) * (absolute(xi) + Number(smallest_position)));
-        xi     = select(active, next, xi);
-        active = active && !finished;
-      }
-    return xi;
+    Bracket<Number> bracket{low, high};
+    bracket.tolerance          = Number(1e-15 * smallest_position);
+    bracket.relative_tolerance = 1e-15;
+    const auto excess          = [&](const Number &xi) {
+      const Cap<Number> c = cap(xi);
+      return ValueAndSlope<Number>{c.X - X, c.dX};
+    };
+    return root_in_bracket<Number>(excess, bracket, high, high > low, iterations);
   }
 
 private:

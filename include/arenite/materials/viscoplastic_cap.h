@@ -1,6 +1,6 @@
 #pragma once
 
-#include <arenite/materials/cap_flow.h>
+#include <arenite/materials/cap_return.h>
 #include <arenite/materials/elastic_constants.h>
 #include <arenite/materials/material_law.h>
 
@@ -115,7 +115,7 @@ struct ViscoplasticCap
     const unsigned    n      = parts(stress_n, increment, moduli.K, moduli.G, history);
     const auto        strain = n == 1 ? increment.strain : increment.strain * Number(1. / n);
     for (unsigned int part = 0; part < n; ++part)
-      response.dissipated += step(stress, strain, increment.dt / n, moduli.K, moduli.G, history);
+      response.dissipated += step(stress, strain, increment.dt / n, moduli.K, moduli.G, history, response.iterations);
 
     const Number p = pressure(stress), J2 = second_invariant(deviator(stress));
     response.stress     = stress;
@@ -224,7 +224,7 @@ private:
   /// One part. @return dissipated energy [J/m^3], with the mean stress, so that stored and dissipated energy add up to the work.
   template <typename Number>
   Number step(SymTensor<Number> &stress, const SymTensor<Number> &strain, const double dt, const Number &K,
-              const Number &G, History<Number> &history) const
+              const Number &G, History<Number> &history, Iterations &iterations) const
   {
     Number volume_strain = trace(strain), closing = Number(0.);
     if (gap_closure && any_of(history.separation > Number(0.)))
@@ -245,6 +245,7 @@ private:
     flow.exponent         = exponent;
     CapReturn<Number> result(surface, flow, K, G);
     result.solve(t.I1, t.j, history.cap_junction);
+    iterations += result.iterations();
     if (viscosity == Viscosity::duvaut_lions)
       {
         const Number w = Number(relaxation_time > 0. ? dt / (relaxation_time + dt) : 1.);
@@ -253,8 +254,8 @@ private:
         if (any_of(result.xi > history.cap_junction))
           {
             const Number X_n = surface.cap(history.cap_junction).X;
-            result.xi =
-              surface.junction(Number(X_n + w * (surface.cap(result.xi).X - X_n)), history.cap_junction, result.xi);
+            result.xi = surface.junction(Number(X_n + w * (surface.cap(result.xi).X - X_n)), history.cap_junction,
+                                         result.xi, iterations);
           }
       }
     history.cap_junction = result.xi;
