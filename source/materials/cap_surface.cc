@@ -29,6 +29,7 @@ std::string CapSurface::finalize()
 
   const double h    = axis_ratio * F0_slope;
   smallest_position = axis_ratio * F0 * (h + std::sqrt(1. + h * h));
+  inner_ratio       = axis_ratio * (axis_ratio * theta + std::sqrt(1. + axis_ratio * axis_ratio * theta * theta));
   // junction L unique: dX/dL > 0; beyond beta L = 30 the exponential is gone
   for (unsigned int i = 0; i <= 3000; ++i)
     {

@@ -1,6 +1,7 @@
-// The search for roots that the return mapping of the caps stands on.
+// The surface of the viscoplastic cap, and the search for roots that its return mapping stands on.
 
 #include <arenite/materials/bracketed_root.h>
+#include <arenite/materials/cap_surface.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -11,6 +12,45 @@
 using namespace Arenite;
 
 BOOST_AUTO_TEST_SUITE(cap_surface)
+
+// What is surely inside of the surface is inside; and it is most of the inside, so that the question is worth asking.
+BOOST_AUTO_TEST_CASE(surely_inside)
+{
+  std::mt19937_64 random(11);
+  const auto      uniform = [&]() { return (random() >> 11) * 0x1p-53; };
+  unsigned int    inside = 0, sure = 0, wrong = 0;
+  for (unsigned int set = 0; set < 200; ++set)
+    {
+      CapSurface s;
+      s.alpha            = std::pow(10., 4. + 3. * uniform());
+      s.gamma            = set % 5 ? s.alpha * 0.9 * uniform() : 0.;
+      s.beta             = set % 7 ? std::pow(10., -8. + 3. * uniform()) : 0.;
+      s.theta            = set % 11 ? 0.3 * uniform() : 0.;
+      s.axis_ratio       = 1. + 5. * uniform();
+      s.small_cap_rule   = true;
+      s.hardening_rate   = 1e-8;
+      s.hardening_limit  = 0.2;
+      s.initial_position = 1e4;
+      s.tension_limit    = uniform() * (s.alpha - s.gamma) / (2. * (s.beta * s.gamma + s.theta));
+      if (!(s.tension_limit < 1e6) || s.finalize() != "")
+        continue;
+      for (unsigned int i = 0; i < 2000; ++i)
+        {
+          const double X = s.smallest_position * std::pow(10., 4. * uniform() - 2.), xi = s.junction(X);
+          const double I1  = -1.1 * s.tension_limit + uniform() * (1.1 * X + 1.1 * s.tension_limit);
+          const double j   = 1.5 * uniform() * s.failure(std::max(I1, 0.)).value;
+          const double f   = s.yield_function(I1, j, s.cap(xi));
+          const bool   yes = s.surely_inside(I1, j * j, xi);
+          inside += f < 0.;
+          sure += yes;
+          wrong += yes && f > 1e-12 * (j + std::abs(I1));
+        }
+    }
+  BOOST_TEST_MESSAGE(sure << " of " << inside);
+  BOOST_TEST(inside > 50000u);
+  BOOST_TEST(wrong == 0u);
+  BOOST_TEST(sure > 0.8 * inside);
+}
 
 // Roots of any scale, with slopes or without, lane by lane; lanes that do not take part are left alone.
 BOOST_AUTO_TEST_CASE(root_in_a_bracket)

@@ -31,6 +31,7 @@ struct CapSurface : CapParameters
   // derived by finalize()
   double tension_center = 0., tension_axis = 0., tension_ratio = 1.; ///< C [Pa], B [Pa], r [-]
   double smallest_position = 0.;                                     ///< X_min [Pa]
+  double inner_ratio       = 0.;                                     ///< R e with the smallest slope of Fe, theta
 
   /// Derived constants. @return the rule that the parameters break, with the numbers; empty if all is well.
   std::string finalize();
@@ -95,6 +96,28 @@ struct CapSurface : CapParameters
     if (!any_of(between))
       return ellipse;
     return select(between, Number(j - failure(I1).value), ellipse);
+  }
+
+  /// True only where f < 0: the state lies inside of a simpler surface that lies inside of this one. No exponential, root or
+  /// division, because this is what most points of a mesh are asked in every step.
+  ///
+  ///   j^2 + ((I1 - C)/r)^2 < B^2                                I1 < 0, the cut-off itself
+  ///   j^2 + (<I1 - L>/r_i)^2 < F(min(I1, L))^2                  else, with F <= Fe and r_i F(L) <= X - L
+  ///
+  /// The quarter of an ellipse with its top at (L, Fe(L)) and its end at (X, 0) is inside of the cap because X - L = R Fe e with
+  /// e >= 1: both j^2 are parabolas in I1 that meet at L and X, and the cap's has the smaller curvature.
+  template <typename Number>
+  Mask<Number> surely_inside(const Number &I1, const Number &J2, const Number &xi) const
+  {
+    const Number zero(0.), L = max(xi, zero), I = min(max(I1, zero), L);
+    const Number one_plus_z = Number(1.) + Number(beta) * I;
+    const Number ratio =
+      select(xi < zero, Number((Number(smallest_position) + xi) * Number(1. / F0)), Number(inner_ratio));
+    const Number       beyond = max(Number(I1 - L), zero), strength = ratio * failure_from_below(I, one_plus_z);
+    const Number       v       = (I1 - Number(tension_center)) * Number(1. / tension_ratio);
+    const Mask<Number> tension = I1 < zero, inside_of_tension = J2 + v * v < Number(tension_axis * tension_axis),
+                       inside = one_plus_z * one_plus_z * (J2 * ratio * ratio + beyond * beyond) < strength * strength;
+    return (tension && inside_of_tension) || (!tension && inside);
   }
 
   /// k(X) - k(X_n) without cancellation, and dk/dX.
