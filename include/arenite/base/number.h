@@ -107,6 +107,8 @@ ARENITE_INLINE V select(const Mask<V> &mask, const V &a, const V &b)
       std::experimental::where(mask, result) = a;
       return result;
     }
+  else if constexpr (!std::is_same_v<Mask<V>, bool>)
+    return V::select(mask, a, b); // lanes that carry derivatives
   else
     return mask ? a : b;
 }
