@@ -29,6 +29,7 @@ std::string CapSurface::finalize()
 
   const double h    = axis_ratio * F0_slope;
   smallest_position = axis_ratio * F0 * (h + std::sqrt(1. + h * h));
+  inner_ratio       = axis_ratio * (axis_ratio * theta + std::sqrt(1. + axis_ratio * axis_ratio * theta * theta));
   // junction L unique: dX/dL > 0; beyond beta L = 30 the exponential is gone
   for (unsigned int i = 0; i <= 3000; ++i)
     {
@@ -54,19 +55,7 @@ double CapSurface::junction(const double X) const
 {
   if (X <= smallest_position)
     return X - smallest_position;
-  double low = 0., high = X, L = 0.5 * X;
-  for (unsigned int i = 0; i < 200; ++i)
-    {
-      const auto   c        = cap(L);
-      const double r        = c.X - X;
-      (r > 0. ? high : low) = L;
-      double next           = L - r / c.dX;
-      if (!(next >= low && next <= high))
-        next = 0.5 * (low + high);
-      if (std::abs(next - L) <= 1e-16 * X)
-        return next;
-      L = next;
-    }
-  return L;
+  Iterations iterations;
+  return junction<double>(X, 0., X, iterations);
 }
 } // namespace Arenite

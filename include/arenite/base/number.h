@@ -107,6 +107,8 @@ ARENITE_INLINE V select(const Mask<V> &mask, const V &a, const V &b)
       std::experimental::where(mask, result) = a;
       return result;
     }
+  else if constexpr (!std::is_same_v<Mask<V>, bool>)
+    return V::select(mask, a, b); // lanes that carry derivatives
   else
     return mask ? a : b;
 }
@@ -116,6 +118,13 @@ template <typename M>
 ARENITE_INLINE bool any_of(const M &mask)
 {
   return std::experimental::any_of(mask);
+}
+/// Number of lanes where the mask holds.
+ARENITE_INLINE unsigned int count_of(const bool mask) { return mask; }
+template <typename M>
+ARENITE_INLINE unsigned int count_of(const M &mask)
+{
+  return std::experimental::popcount(mask);
 }
 
 // What the functions below do for a type of number. The primary template serves differentiable numbers, whose functions are found

@@ -49,5 +49,12 @@ struct FailureSurface
     return {select(tension, Number(Number(F0) + Number(F0_slope) * I1), F.value), F.slope,
             select(tension, Number(0.), F.curvature)};
   }
+
+  /// (1 + beta I1) F with F <= Fe(I1), for I1 >= 0; needs no exponential: 1 - exp(-z) >= z/(1 + z).
+  template <typename Number>
+  Number failure_from_below(const Number &I1, const Number &one_plus_z) const
+  {
+    return (Number(F0) + Number(theta) * I1) * one_plus_z + Number(gamma * beta) * I1;
+  }
 };
 } // namespace Arenite
