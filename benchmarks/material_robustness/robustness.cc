@@ -6,7 +6,7 @@
 // Every update is checked against the equations of backward Euler, by a path that does not use the solver's own unknowns; each
 // batch of lanes is compared with the same updates one by one. Exit code 1 if anything failed.
 
-#include <arenite/materials/cap_flow.h>
+#include <arenite/materials/cap_return.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -246,10 +246,10 @@ int run(const unsigned long n_updates, const unsigned long seed, const std::stri
                 continue;
               ++plastic;
               corners += result.corner;
-              fallbacks += one.fallbacks;
-              iterations += one.iterations;
+              fallbacks += one.fallbacks();
+              iterations += one.iterations().passes;
               unsigned int upper = 1;
-              while (upper < one.iterations)
+              while (upper < one.iterations().passes)
                 upper *= 2;
               ++histogram[upper];
             }

@@ -11,8 +11,11 @@ file = common.scratch().with_suffix(".json")
 file.parent.mkdir(exist_ok=True)
 subprocess.run([program, "--repetitions", "3" if study.quick else "25", "--output", file], check=True,
                env=dict(os.environ, OMP_NUM_THREADS="1"))
+results = json.loads(file.read_text())
+traffic = min(r["lanes_ns"] for r in results if r["law"] == "traffic of the arrays")
 rows = [{"law": r["law"], "workload": r["workload"], "plastic [%]": 100 * r["plastic"], "one by one [ns]": r["scalar_ns"],
-         f"in {r['lanes']} lanes [ns]": r["lanes_ns"], "gain": r["scalar_ns"] / r["lanes_ns"]} for r in json.loads(file.read_text())]
+         f"in {r['lanes']} lanes [ns]": r["lanes_ns"], "gain": r["scalar_ns"] / r["lanes_ns"], "over traffic": r["lanes_ns"] / traffic,
+         "passes alone": r["passes"], "in lanes": r["lanes_passes"], "waiting [%]": 100 * r["waiting"]} for r in results]
 print("\n" + common.markdown_table(rows), flush=True)
 if study.write:
     common.write_csv(study.folder / "results.csv", rows)

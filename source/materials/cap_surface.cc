@@ -27,8 +27,10 @@ std::string CapSurface::finalize()
   tension_axis   = std::sqrt(F0) * (F0 - F0_slope * T) / std::sqrt(n);
   tension_ratio  = T / std::sqrt(F0 * n);
 
-  const double h    = axis_ratio * F0_slope;
-  smallest_position = axis_ratio * F0 * (h + std::sqrt(1. + h * h));
+  const double h              = axis_ratio * F0_slope;
+  smallest_position           = axis_ratio * F0 * (h + std::sqrt(1. + h * h));
+  const double smallest_slope = axis_ratio * (friction_range > 0. ? 0. : theta);
+  inner_ratio                 = axis_ratio * (smallest_slope + std::sqrt(1. + smallest_slope * smallest_slope));
   // junction L unique: dX/dL > 0; thirty decay lengths from 0 the exponential is gone
   for (const double decay_length : {beta > 0. ? 1. / beta : 0., friction_range})
     for (unsigned int i = 0; i <= 3000; ++i)
@@ -55,19 +57,7 @@ double CapSurface::junction(const double X) const
 {
   if (X <= smallest_position)
     return X - smallest_position;
-  double low = 0., high = X, L = 0.5 * X;
-  for (unsigned int i = 0; i < 200; ++i)
-    {
-      const auto   c        = cap(L);
-      const double r        = c.X - X;
-      (r > 0. ? high : low) = L;
-      double next           = L - r / c.dX;
-      if (!(next >= low && next <= high))
-        next = 0.5 * (low + high);
-      if (std::abs(next - L) <= 1e-16 * X)
-        return next;
-      L = next;
-    }
-  return L;
+  Iterations iterations;
+  return junction<double>(X, 0., X, iterations);
 }
 } // namespace Arenite

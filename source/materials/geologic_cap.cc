@@ -22,27 +22,21 @@ double GeologicCapSurface::junction(const double X) const
   double low = high;
   while (cap(low).X > X)
     low -= std::abs(X) + smallest_position;
-  for (unsigned int i = 0; i < 200 && high - low > 1e-16 * (std::abs(X) + smallest_position); ++i)
-    {
-      const double middle              = 0.5 * (low + high);
-      (cap(middle).X > X ? high : low) = middle;
-    }
-  return 0.5 * (low + high);
+  Bracket<double> bracket{low, high, 1e-16 * smallest_position, 4e-16};
+  Iterations      iterations;
+  const auto      excess = [&](const double &kappa) {
+    const auto c = cap(kappa);
+    return ValueAndSlope<double>{c.X - X, c.dX};
+  };
+  return root_in_bracket<double>(excess, bracket, high, true, iterations);
 }
 
 void GeologicCap::declare_parameters(Parameters &parameters)
 {
   path = parameters.current_path();
   constants.declare_parameters(parameters);
-  surface.declare_failure(parameters);
-  parameters.add_quantity("Cap axis ratio R", surface.axis_ratio, "-", positive,
-                          "Length of the cap along I1 over its height. Larger: a flatter cap that begins earlier.");
-  parameters.add_quantity("Initial cap position X0", surface.initial_position, "Pa", non_negative,
-                          "I1 of first compaction: three times the yield pressure. Larger: stiffer at first.");
-  parameters.add_quantity("Hardening rate D", surface.hardening_rate, "1/Pa", positive,
-                          "Compaction per I1: k = W (1 - exp(-D (X - X0))). Larger: compacts at lower pressure.");
-  parameters.add_quantity("Hardening limit W", surface.hardening_limit, "-", {0., 1., true, true},
-                          "Largest compactive volume strain, of the closed pores. Larger: absorbs more.");
+  surface.declare_cap(parameters, non_negative, "k = W (1 - exp(-D (X - X0)))");
+  surface.declare_hardening_limit(parameters);
   parameters.add_quantity("Tension cutoff T", tension_cutoff, "Pa", non_negative,
                           "Tensile strength on the I1 axis: three times the mean tensile stress. Larger: later spall.");
   parameters.add_choice("Type", type, {"soil", "rock"},

@@ -19,7 +19,7 @@ void SoilStiffening::declare_parameters(Parameters &parameters)
   parameters.leave_out_if_unset("Bulk modulus without air");
   parameters.add_integer("Stiffening exponent", exponent, 1, 4,
                          "m. A larger one keeps the soil soft for longer and lets it stiffen more suddenly.");
-  parameters.add_quantity("Stiffening without air", compacted_stiffening, "-", {0., 20., false, false},
+  parameters.add_quantity("Stiffening without air", compacted_stiffening, "-", {1., 20., false, false},
                           "K' = dK/dp of grains and water, 4 to 7. Limits the density at high pressure.");
   parameters.add_quantity("Tension limit", tension_limit, "Pa", non_negative,
                           "T: below p = -T the soil parts and a gap opens that must close before pressure returns.");

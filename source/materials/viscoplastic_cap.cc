@@ -9,13 +9,7 @@ void ViscoplasticCap<Stiffness>::declare_parameters(Parameters &parameters)
 {
   path = parameters.current_path();
   stiffness.declare_parameters(parameters);
-  surface.declare_failure(parameters);
-  parameters.add_quantity("Cap axis ratio R", surface.axis_ratio, "-", positive,
-                          "Length of the cap along I1 over its height. Larger: a flatter cap that begins earlier.");
-  parameters.add_quantity("Initial cap position X0", surface.initial_position, "Pa", positive,
-                          "I1 of first compaction: three times the yield pressure. Larger: stiffer at first.");
-  parameters.add_quantity("Hardening rate D", surface.hardening_rate, "1/Pa", positive,
-                          "Compaction per I1: k = W D (X - X0)/(1 + D (X - X0)). Larger: compacts at lower pressure.");
+  surface.declare_cap(parameters, positive, "k = W D (X - X0)/(1 + D (X - X0))");
   if constexpr (Stiffness::changes)
     {
       parameters.add_quantity("Hardening limit W", surface.hardening_limit, "-", {0., 1., false, true},
@@ -23,8 +17,7 @@ void ViscoplasticCap<Stiffness>::declare_parameters(Parameters &parameters)
       parameters.leave_out_if_unset("Hardening limit W");
     }
   else
-    parameters.add_quantity("Hardening limit W", surface.hardening_limit, "-", {0., 1., true, true},
-                            "Largest compactive volume strain, of the closed pores. Larger: absorbs more.");
+    surface.declare_hardening_limit(parameters);
   parameters.add_quantity("Tension limit T", surface.tension_limit, "Pa", positive,
                           "Tensile strength on the I1 axis: three times the mean tensile stress. Larger: later spall.");
   parameters.add_flag("Small cap rule", surface.small_cap_rule,

@@ -107,6 +107,8 @@ ARENITE_INLINE V select(const Mask<V> &mask, const V &a, const V &b)
       std::experimental::where(mask, result) = a;
       return result;
     }
+  else if constexpr (!std::is_same_v<Mask<V>, bool>)
+    return V::select(mask, a, b); // lanes that carry derivatives
   else
     return mask ? a : b;
 }
@@ -116,6 +118,13 @@ template <typename M>
 ARENITE_INLINE bool any_of(const M &mask)
 {
   return std::experimental::any_of(mask);
+}
+/// Number of lanes where the mask holds.
+ARENITE_INLINE unsigned int count_of(const bool mask) { return mask; }
+template <typename M>
+ARENITE_INLINE unsigned int count_of(const M &mask)
+{
+  return std::experimental::popcount(mask);
 }
 
 // What the functions below do for a type of number. The primary template serves differentiable numbers, whose functions are found
@@ -297,5 +306,16 @@ template <typename V>
 ARENITE_INLINE V absolute(const V &a)
 {
   return Arenite::select<V>(a < V(0.), V(-a), a);
+}
+
+/// e^a - 1 - a to full relative accuracy: Taylor's series below 1/2, where the terms cancel.
+template <typename V>
+ARENITE_INLINE V exponential_remainder(const V &a)
+{
+  V series(1.);
+  for (int k = 15; k > 2; --k)
+    series = V(1.) + a * V(1. / k) * series;
+  return Arenite::select<V>(Arenite::absolute<V>(a) < V(.5), V(V(.5) * a * a * series),
+                            V(Arenite::exponential_minus_one<V>(a) - a));
 }
 } // namespace Arenite

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <arenite/materials/failure_surface.h>
+#include <arenite/materials/bracketed_root.h>
+#include <arenite/materials/cap_parameters.h>
 
 #include <string>
 
@@ -22,18 +23,15 @@ namespace Arenite
 /// ratio, R^2 = X^2/(F0^2 + 2 X F0 F0'), so that the ellipse still meets the cut-off with a continuous normal at (0, F0).
 ///
 /// Roger (2015), equations (2.3.7)-(2.3.29); the explicit form in L and the small-cap rule are our own.
-struct CapSurface : FailureSurface
+struct CapSurface : CapParameters
 {
-  double axis_ratio       = 4.; ///< R [-]
-  double initial_position = 0.; ///< X0 on the I1 axis [Pa]
-  double hardening_rate   = 0.; ///< D [1/Pa]
-  double hardening_limit  = 0.; ///< W [-]
-  double tension_limit    = 0.; ///< T on the I1 axis [Pa]
-  bool   small_cap_rule   = false;
+  double tension_limit  = 0.; ///< T on the I1 axis [Pa]
+  bool   small_cap_rule = false;
 
   // derived by finalize()
   double tension_center = 0., tension_axis = 0., tension_ratio = 1.; ///< C [Pa], B [Pa], r [-]
   double smallest_position = 0.;                                     ///< X_min [Pa]
+  double inner_ratio       = 0.;                                     ///< R e with the smallest slope of Fe
 
   /// Derived constants. @return the rule that the parameters break, with the numbers; empty if all is well.
   std::string finalize();
@@ -100,6 +98,28 @@ struct CapSurface : FailureSurface
     return select(between, Number(j - failure(I1).value), ellipse);
   }
 
+  /// True only where f < 0: the state lies inside of a simpler surface that lies inside of this one. No exponential, root or
+  /// division, because this is what most points of a mesh are asked in every step.
+  ///
+  ///   j^2 + ((I1 - C)/r)^2 < B^2                                I1 < 0, the cut-off itself
+  ///   j^2 + (<I1 - L>/r_i)^2 < F(min(I1, L))^2                  else, with F <= Fe and r_i F(L) <= X - L
+  ///
+  /// The quarter of an ellipse with its top at (L, Fe(L)) and its end at (X, 0) is inside of the cap because X - L = R Fe e with
+  /// e >= 1: both j^2 are parabolas in I1 that meet at L and X, and the cap's has the smaller curvature.
+  template <typename Number>
+  Mask<Number> surely_inside(const Number &I1, const Number &J2, const Number &xi) const
+  {
+    const Number zero(0.), L = max(xi, zero), I = min(max(I1, zero), L);
+    const auto   F = failure_from_below(I);
+    const Number ratio =
+      select(xi < zero, Number((Number(smallest_position) + xi) * Number(1. / F0)), Number(inner_ratio));
+    const Number       beyond = max(Number(I1 - L), zero), strength = ratio * F.scaled;
+    const Number       v       = (I1 - Number(tension_center)) * Number(1. / tension_ratio);
+    const Mask<Number> tension = I1 < zero, inside_of_tension = J2 + v * v < Number(tension_axis * tension_axis),
+                       inside = F.scale * F.scale * (J2 * ratio * ratio + beyond * beyond) < strength * strength;
+    return (tension && inside_of_tension) || (!tension && inside);
+  }
+
   /// k(X) - k(X_n) without cancellation, and dk/dX.
   template <typename Number>
   Number compaction(const Number &X, const Number &X_n) const
@@ -125,25 +145,16 @@ struct CapSurface : FailureSurface
 
   /// The same on lanes, inside of [low, high] with X(low) <= X <= X(high).
   template <typename Number>
-  Number junction(const Number &X, Number low, Number high) const
+  Number junction(const Number &X, const Number &low, const Number &high, Iterations &iterations) const
   {
-    Number       xi     = high;
-    Mask<Number> active = high > low;
-    for (unsigned int i = 0; i < 100 && any_of(active); ++i)
-      {
-        const Cap<Number>  c      = cap(xi);
-        const Number       excess = c.X - X, newton = xi - excess / c.dX;
-        const Mask<Number> above  = excess > Number(0.);
-        low                       = select(Mask<Number>(active && !above), xi, low);
-        high                      = select(Mask<Number>(active && above), xi, high);
-        const Mask<Number> inside = !(newton < low) && !(newton > high);
-        const Number       next   = select(inside, newton, Number(Number(0.5) * (low + high)));
-        const Mask<Number> finished =
-          !(absolute(Number(next - xi)) > Number(1e-15) * (absolute(xi) + Number(smallest_position)));
-        xi     = select(active, next, xi);
-        active = active && !finished;
-      }
-    return xi;
+    Bracket<Number> bracket{low, high};
+    bracket.tolerance          = Number(1e-15 * smallest_position);
+    bracket.relative_tolerance = 1e-15;
+    const auto excess          = [&](const Number &xi) {
+      const Cap<Number> c = cap(xi);
+      return ValueAndSlope<Number>{c.X - X, c.dX};
+    };
+    return root_in_bracket<Number>(excess, bracket, high, high > low, iterations);
   }
 
 private:

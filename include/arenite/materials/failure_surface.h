@@ -66,5 +66,22 @@ struct FailureSurface
     return {select(tension, Number(Number(F0) + Number(F0_slope) * I1), F.value), F.slope,
             select(tension, Number(0.), F.curvature)};
   }
+
+  /// F <= Fe(I1), for I1 >= 0, as scaled / scale; needs neither exponential nor division: 1 - exp(-z) >= z/(1 + z).
+  template <typename Number>
+  struct LowerBound
+  {
+    Number scaled, scale;
+  };
+  template <typename Number>
+  LowerBound<Number> failure_from_below(const Number &I1) const
+  {
+    const Number of_gamma = Number(1.) + Number(beta) * I1;
+    if (friction_range == 0.)
+      return {(Number(F0) + Number(theta) * I1) * of_gamma + Number(gamma * beta) * I1, of_gamma};
+    const Number of_theta = Number(1.) + Number(1. / friction_range) * I1;
+    return {(Number(F0) * of_theta + Number(theta) * I1) * of_gamma + Number(gamma * beta) * I1 * of_theta,
+            of_gamma * of_theta};
+  }
 };
 } // namespace Arenite

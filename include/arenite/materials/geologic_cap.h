@@ -1,7 +1,7 @@
 #pragma once
 
-#include <arenite/materials/cap_flow.h>
 #include <arenite/materials/elastic_constants.h>
+#include <arenite/materials/hardening_cap.h>
 #include <arenite/materials/material_law.h>
 
 #include <string>
@@ -18,13 +18,8 @@ namespace Arenite
 /// continued by its tangent.
 ///
 /// Sandler & Rubin, Int. J. Numer. Anal. Meth. Geomech. 3 (1979) 173-186; Simo, Ju, Pister & Taylor, J. Eng. Mech. 114 (1988).
-struct GeologicCapSurface : FailureSurface
+struct GeologicCapSurface : CapParameters
 {
-  double axis_ratio       = 4.; ///< R [-]
-  double initial_position = 0.; ///< X0 on the I1 axis [Pa]
-  double hardening_rate   = 0.; ///< D [1/Pa]
-  double hardening_limit  = 0.; ///< W [-]
-
   double smallest_position = 0.; ///< X(kappa = 0) [Pa], a scale of stress
 
   std::string finalize();
@@ -124,12 +119,12 @@ struct GeologicCap
     const Number            K = Number(elastic.bulk_modulus), G = Number(elastic.shear_modulus);
     const SymTensor<Number> s_n = deviator(stress_n), s_t = s_n + deviator(increment.strain) * Number(Number(2.) * G);
     const Number            I1_trial = -trace(stress_n) - Number(3.) * K * trace(increment.strain);
-    const Number j_trial = square_root(Number(second_invariant(s_t) + Number(1e-32 * surface.F0 * surface.F0)));
-    Number       I1 = I1_trial, j = j_trial;
-    project(K, G, I1, j, history.kappa);
-
-    const Number     ratio = j / j_trial, p = I1 * Number(1. / 3.), p_n = pressure(stress_n);
+    const Number     j_trial = square_root(Number(second_invariant(s_t) + Number(1e-32 * surface.F0 * surface.F0)));
+    Number           I1 = I1_trial, j = j_trial;
     Response<Number> response;
+    project(K, G, I1, j, history.kappa, response.iterations);
+
+    const Number ratio = j / j_trial, p = I1 * Number(1. / 3.), p_n = pressure(stress_n);
     response.stress = s_t * ratio;
     for (int k = 0; k < 3; ++k)
       response.stress[k] -= p;
@@ -167,43 +162,44 @@ private:
 
   /// Trial invariants -> invariants at t_{n+1}; kappa in place.
   template <typename Number>
-  void project(const Number &K, const Number &G, Number &I1, Number &j, Number &kappa) const
+  void project(const Number &K, const Number &G, Number &I1, Number &j, Number &kappa, Iterations &iterations) const
   {
     CapFlow flow;
-    flow.rate_independent = true;
-    CapReturn<Number, GeologicCapSurface> result(surface, flow, K, G);
-    const Number                          I1_trial = I1, j_trial = j, kappa_n = kappa;
-    const auto                            cap_n   = surface.cap(kappa_n);
-    const Mask<Number>                    on_side = !(I1_trial < cap_n.L);
-    const Number                          v       = (I1_trial - cap_n.L) / cap_n.R;
-    const Mask<Number>                    on_cap  = on_side && square_root(Number(j_trial * j_trial + v * v)) > cap_n.b;
+    flow.rate_independent       = true;
+    const Number       I1_trial = I1, j_trial = j, kappa_n = kappa;
+    const auto         cap_n   = surface.cap(kappa_n);
+    const Mask<Number> on_side = !(I1_trial < cap_n.L);
+    const Number       v       = (I1_trial - cap_n.L) / cap_n.R;
+    const Mask<Number> on_cap  = on_side && square_root(Number(j_trial * j_trial + v * v)) > cap_n.b;
     if (any_of(on_cap))
       {
-        result.I1 = I1_trial;
-        result.j  = j_trial;
-        result.xi = kappa_n;
-        result.harden(on_cap, I1_trial, j_trial, kappa_n, cap_n);
-        I1    = select(on_cap, result.I1, I1);
-        j     = select(on_cap, result.j, j);
-        kappa = select(on_cap, result.xi, kappa);
+        HardeningCap<Number, GeologicCapSurface> cap(surface, flow, K, G);
+        const auto                               p = cap.solve(on_cap, I1_trial, j_trial, kappa_n, cap_n);
+        I1                                         = select(on_cap, p.I1, I1);
+        j                                          = select(on_cap, p.j, j);
+        kappa                                      = select(on_cap, p.xi, kappa);
+        iterations += cap.iterations;
       }
 
     const Mask<Number> fails = !on_side && j_trial > surface.failure(I1_trial).value;
     if (any_of(fails))
       {
-        const auto p = result.on_failure_surface(fails, I1_trial, j_trial);
+        CapRegions<Number, GeologicCapSurface> regions(surface, flow, K, G);
+        const auto                             p = regions.on_failure_surface(fails, I1_trial, j_trial);
+        iterations += regions.iterations;
         // the corner where the projection would pass the cap's centre, which comes to meet it in a soil
-        const Number       kappa_c = contracted(fails, K, p.I1, I1_trial, kappa_n, cap_n.X);
+        const Number       kappa_c = contracted(fails, K, p.I1, I1_trial, kappa_n, cap_n.X, iterations);
         const Mask<Number> corner  = fails && p.I1 > max(kappa_c, Number(0.));
         I1                         = select(fails, p.I1, I1);
         j                          = select(fails, p.j, j);
         kappa                      = select(fails, kappa_c, kappa);
         if (any_of(corner))
           {
-            const Number kappa_e = type == "rock" ? kappa_n : meeting(corner, K, I1_trial, kappa_n, cap_n.X);
-            const Number L       = max(kappa_e, Number(0.));
-            kappa                = select(corner, kappa_e, kappa);
-            I1                   = select(corner, L, I1);
+            const Number kappa_e =
+              type == "rock" ? kappa_n : meeting(corner, K, I1_trial, kappa_n, cap_n.X, iterations);
+            const Number L = max(kappa_e, Number(0.));
+            kappa          = select(corner, kappa_e, kappa);
+            I1             = select(corner, L, I1);
             // where the cap begins at I1 = 0 it is lower than the failure surface
             j = select(corner, min(min(surface.failure(L).value, surface.cap(kappa_e).b), j_trial), j);
           }
@@ -215,58 +211,51 @@ private:
       {
         I1    = select(torn, cut, I1);
         j     = select(torn, min(j_trial, surface.failure(cut).value), j);
-        kappa = select(torn, contracted(torn, K, cut, I1_trial, kappa_n, cap_n.X), kappa);
+        kappa = select(torn, contracted(torn, K, cut, I1_trial, kappa_n, cap_n.X, iterations), kappa);
       }
   }
 
   /// kappa after the dilation (I1 - I1_trial)/(3 K) at fixed I1 [rock: unchanged].
   template <typename Number>
   Number contracted(const Mask<Number> &wanted, const Number &K, const Number &I1, const Number &I1_trial,
-                    const Number &kappa_n, const Number &X_n) const
+                    const Number &kappa_n, const Number &X_n, Iterations &iterations) const
   {
     if (type == "rock")
       return kappa_n;
     const Number dilation = (I1 - I1_trial) / (Number(3.) * K);
-    return bracketed(wanted, kappa_n, [&](const typename GeologicCapSurface::template Cap<Number> &cap) {
-      return surface.compaction(cap.X, X_n) + dilation;
-    });
+    const auto   excess   = [&](const Number &kappa) {
+      const auto cap = surface.cap(kappa);
+      return ValueAndSlope<Number>{surface.compaction(cap.X, X_n) + dilation, surface.compaction_slope(cap.X) * cap.dX};
+    };
+    return contraction(wanted, kappa_n, excess, iterations);
   }
 
   /// kappa = I1 where contraction and the dilation up to that point agree.
   template <typename Number>
   Number meeting(const Mask<Number> &wanted, const Number &K, const Number &I1_trial, const Number &kappa_n,
-                 const Number &X_n) const
+                 const Number &X_n, Iterations &iterations) const
   {
-    return bracketed(wanted, kappa_n, [&](const typename GeologicCapSurface::template Cap<Number> &cap) {
-      return surface.compaction(cap.X, X_n) + (cap.L - I1_trial) / (Number(3.) * K);
-    });
+    const Number per_3K = Number(1.) / (Number(3.) * K);
+    const auto   excess = [&](const Number &kappa) {
+      const auto cap = surface.cap(kappa);
+      return ValueAndSlope<Number>{surface.compaction(cap.X, X_n) + (cap.L - I1_trial) * per_3K,
+                                   surface.compaction_slope(cap.X) * cap.dX + cap.dM * per_3K};
+    };
+    return contraction(wanted, kappa_n, excess, iterations);
   }
 
-  /// Root of an increasing function of the cap in [smallest kappa, kappa_n]; the lower end where there is none.
+  /// Root in [smallest kappa, kappa_n]; the end where there is none.
   template <typename Number, typename Function>
-  Number bracketed(const Mask<Number> &wanted, const Number &kappa_n, const Function &function) const
+  Number contraction(const Mask<Number> &wanted, const Number &kappa_n, const Function &excess,
+                     Iterations &iterations) const
   {
-    Number             low = min(Number(smallest_kappa), kappa_n), high = kappa_n, f_high = function(surface.cap(high));
-    Number             f_low  = function(surface.cap(low));
-    const Mask<Number> none   = !(f_low < Number(0.));
-    Number             root   = select(none, low, high);
-    Mask<Number>       active = wanted && !none && f_high > Number(0.);
-    for (unsigned int i = 0; i < 200 && any_of(active); ++i)
-      {
-        const Number secant = (f_low * high - f_high * low) / (f_low - f_high), middle = Number(0.5) * (low + high);
-        const Number next = i % 3 == 2 ? middle : select(Mask<Number>(secant > low && secant < high), secant, middle);
-        const Number f    = function(surface.cap(next));
-        const Mask<Number> below = f < Number(0.);
-        // Illinois: the end that stays counts half
-        f_low  = select(below, f, Number(Number(0.5) * f_low));
-        f_high = select(below, Number(Number(0.5) * f_high), f);
-        low    = select(below, next, low);
-        high   = select(below, high, next);
-        root   = select(active, next, root);
-        active = active && high - low > Number(1e-15) * (absolute(high) + Number(surface.smallest_position)) &&
-                 absolute(f) > Number(0.);
-      }
-    return root;
+    const Number       low  = min(Number(smallest_kappa), kappa_n);
+    const Mask<Number> none = !(excess(low).value < Number(0.));
+    Bracket<Number>    bracket{low, kappa_n};
+    bracket.tolerance           = Number(1e-15 * surface.smallest_position);
+    bracket.relative_tolerance  = 1e-15;
+    const Mask<Number> searched = wanted && !none && excess(kappa_n).value > Number(0.);
+    return select(none, low, root_in_bracket<Number>(excess, bracket, kappa_n, searched, iterations));
   }
 };
 } // namespace Arenite

@@ -2,6 +2,7 @@
 
 #include <arenite/base/parameters.h>
 #include <arenite/base/tensor_tools.h>
+#include <arenite/materials/iterations.h>
 
 #include <string>
 #include <type_traits>
@@ -26,8 +27,9 @@ struct Response
   SymTensor<Number> stress;                  ///< Cauchy stress [Pa], tension positive
   Number            wave_speed = Number(0.); ///< no disturbance of the present state is faster [m/s]
   Number            stored     = Number(0.); ///< recoverable energy [J/m^3], per present volume
-  Number dissipated = Number(0.); ///< what the step turned into heat and closed pores [J/m^3], per present volume
-  double substeps   = 1.;         ///< parts into which the law divided the step
+  Number     dissipated = Number(0.); ///< what the step turned into heat and closed pores [J/m^3], per present volume
+  double     substeps   = 1.;         ///< parts into which the law divided the step
+  Iterations iterations;              ///< of the equations that the law solved
 };
 
 /// No memory but the stress.

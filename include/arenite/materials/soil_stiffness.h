@@ -11,6 +11,13 @@ namespace Arenite
 /// The modulus of a step is the mean of K over ln rho, so that a purely elastic compression is exact for any step. The shear modulus
 /// follows in proportion (constant Poisson ratio), or stays that of the skeleton, which is the default for a saturated soil: its K is
 /// that of grains and water, its skeleton is not stiffer for that.
+///
+/// Shear is counted per reference volume: tau_dot = 2 G e_dot for the Kirchhoff deviator tau = J s, with
+///
+///   G = r rho_0 c_m^2,   rho_0 c_m^2 = max(K_0, K(rho_m) rho_0/rho_m),   r = 3 (1 - 2 nu)/(2 (1 + nu))
+///
+/// which never falls (K' >= 1). With a Cauchy stress per present volume, or a G that follows the density both ways, a cycle of
+/// compression, shear, expansion and shear back gives energy.
 struct SoilStiffness
 {
   static constexpr const char *law_name = "viscoplastic cap with stiffening";
@@ -36,15 +43,25 @@ struct SoilStiffness
   StepModuli<Number> moduli(const PointIncrement<Number> &increment, History<Number> &history) const
   {
     StepModuli<Number> m;
-    m.K_old               = soil.modulus(history.density_max);
-    m.K                   = soil.stiffness(increment.density_old, increment.density, history.density_max);
-    history.density_max   = max(history.density_max, increment.density);
-    m.K_new               = soil.modulus(history.density_max);
-    const Number constant = Number(shear_modulus), ratio = Number(shear_ratio);
-    m.G     = constant_shear ? constant : ratio * m.K;
-    m.G_old = constant_shear ? constant : ratio * m.K_old;
-    m.G_new = constant_shear ? constant : ratio * m.K_new;
+    m.K_old             = soil.modulus(history.density_max);
+    m.G_old             = shear_modulus_of(m.K_old, history.density_max);
+    m.K                 = soil.stiffness(increment.density_old, increment.density, history.density_max);
+    history.density_max = max(history.density_max, increment.density);
+    m.K_new             = soil.modulus(history.density_max);
+    m.G_new             = shear_modulus_of(m.K_new, history.density_max);
+    m.G_mean            = Number(0.5) * (m.G_old + m.G_new);
+    m.G                 = m.G_mean * increment.density * Number(1. / soil.reference_density());
     return m;
+  }
+
+  /// G per reference volume [Pa]
+  template <typename Number>
+  Number shear_modulus_of(const Number &K, const Number &density_max) const
+  {
+    if (constant_shear)
+      return Number(shear_modulus);
+    return Number(shear_ratio) *
+           max(Number(soil.bulk_modulus), Number(K * Number(soil.reference_density()) / density_max));
   }
 
   template <typename Number>

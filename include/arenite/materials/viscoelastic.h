@@ -78,16 +78,14 @@ struct Viscoelastic
       }
     else
       {
-        // towards a = m C : eps_dot tau, the branch stress of a strain rate that lasts for ever
         const double m    = model == Model::maxwell ? 1. : branch_ratio;
         const double rise = x > 1e-8 ? -std::expm1(-x) / x : 1. - 0.5 * x; // (1 - e^-x)/x
         h                 = h_n * Number(E) + force * Number(m * rise);
-        // integral of h : (m C)^-1 : h / tau over the step
-        const SymTensor<Number> a = increment.dt > 0. ? force * Number(m / x) : SymTensor<Number>();
-        const SymTensor<Number> b = h_n - a;
-        dissipated                = Number(1. / m) *
-                     (compliance_product(a, a) * Number(x) + Number(2. * -std::expm1(-x)) * compliance_product(a, b) +
-                      Number(-0.5 * std::expm1(-2. * x)) * compliance_product(b, b));
+        // integral of h : (m C)^-1 : h / tau over the step, h = h_n e^-s + m C : Delta eps (1 - e^-s)/x, 0 < s < x
+        const StepIntegrals i = integrals(x);
+        dissipated            = Number(i.old_old / m) * compliance_product(h_n, h_n) +
+                     Number(2. * i.old_new) * compliance_product(h_n, force) +
+                     Number(m * i.new_new) * compliance_product(force, force);
       }
 
     const SymTensor<Number> relaxed_n = model == Model::maxwell ? SymTensor<Number>() : stress_n - h_n;
@@ -124,6 +122,24 @@ struct Viscoelastic
   double           branch_ratio    = 1.; ///< m [-]
 
 private:
+  /// Integrals over 0 < s < x of e^-2s, of e^-s (1 - e^-s)/x and of (1 - e^-s)^2/x^2. The last is (x - u - u^2/2)/x^2 with u = 1 - e^-x,
+  /// which cancels in small steps; with x = -ln(1 - u) it is a series of positive terms, (u^3/3 + u^4/4 + ...)/x^2.
+  struct StepIntegrals
+  {
+    double old_old = 0., old_new = 0., new_new = 0.;
+  };
+  static StepIntegrals integrals(const double x)
+  {
+    if (!(x > 0.))
+      return {};
+    const double u = -std::expm1(-x), r = u / x;
+    double       sum = 0.;
+    if (u < 0.05)
+      for (int k = 13; k >= 3; --k) // the next term is below 1e-14 of the first
+        sum = 1. / k + u * sum;
+    return {u - 0.5 * u * u, 0.5 * u * r, u < 0.05 ? u * r * r * sum : (x - u - 0.5 * u * u) / (x * x)};
+  }
+
   /// Stiffness for infinitely fast loading over C.
   double instantaneous() const { return model == Model::standard ? 1. + branch_ratio : 1.; }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <arenite/materials/cap_flow.h>
+#include <arenite/materials/cap_return.h>
 #include <arenite/materials/elastic_constants.h>
 #include <arenite/materials/material_law.h>
 
@@ -9,11 +9,13 @@
 
 namespace Arenite
 {
-/// Moduli of one step [Pa]: the step is integrated with K and G, stored energies are those of the unloading moduli at its ends.
+/// Moduli of one step [Pa]: the step is integrated with K and G, stored energies are those of the unloading moduli at its ends. A
+/// stiffness that changes counts shear per reference volume: G_old, G_mean and G_new belong to the Kirchhoff stress, G = G_mean/J to the
+/// Cauchy stress at the end of the step.
 template <typename Number>
 struct StepModuli
 {
-  Number K, G, K_old, G_old, K_new, G_new;
+  Number K, G, K_old, K_new, G_old, G_mean, G_new;
 };
 
 /// Elastic stiffness that does not change.
@@ -36,7 +38,7 @@ struct ConstantStiffness
   StepModuli<Number> moduli(const PointIncrement<Number> &, History<Number> &) const
   {
     const Number K = Number(elastic.bulk_modulus), G = Number(elastic.shear_modulus);
-    return {K, G, K, G, K, G};
+    return {K, G, K, K, G, G, G};
   }
   std::string adopt_hardening_limit(double &, bool) { return ""; }
   template <typename Number>
@@ -116,23 +118,41 @@ struct ViscoplasticCap
     const auto        moduli = stiffness.moduli(increment, history.stiffness);
     Response<Number>  response;
     SymTensor<Number> stress = stress_n;
-    const unsigned    n      = parts(stress_n, increment, moduli.K, moduli.G, history);
-    const auto        strain = n == 1 ? increment.strain : increment.strain * Number(1. / n);
-    for (unsigned int part = 0; part < n; ++part)
-      response.dissipated += step(stress, strain, increment.dt / n, moduli.K, moduli.G, history);
-
-    const Number p = pressure(stress), J2 = second_invariant(deviator(stress));
-    response.stress     = stress;
-    response.substeps   = n;
-    response.wave_speed = square_root(Number((moduli.K_new + Number(4. / 3.) * moduli.G_new) / increment.density));
-    response.stored     = Number(0.5) * (p * p / moduli.K_new + J2 / moduli.G_new);
-    if constexpr (Stiffness::changes) // moduli that grow keep the stress and lose stored energy
+    if constexpr (Stiffness::changes)
+      stress = with_kirchhoff_deviator(stress_n, increment);
+    Dissipation<Number> dissipation;
+    Trial<Number>       t = trial(stress, increment.strain, moduli.K, moduli.G, history);
+    Number              p, J2;
+    if (stays_elastic(t, history))
       {
-        const Number p_n = pressure(stress_n), J2_n = second_invariant(deviator(stress_n));
-        response.dissipated += Number(0.5) * (p_n * p_n * (Number(1.) / moduli.K_old - Number(1.) / moduli.K) +
-                                              J2_n * (Number(1.) / moduli.G_old - Number(1.) / moduli.G) +
-                                              p * p * (Number(1.) / moduli.K - Number(1.) / moduli.K_new) +
-                                              J2 * (Number(1.) / moduli.G - Number(1.) / moduli.G_new));
+        dissipation.volume = accept(t, stress, history);
+        p                  = t.I1 * Number(1. / 3.);
+        J2                 = t.J2;
+      }
+    else
+      {
+        const unsigned int n      = parts(t, stress, increment.strain, moduli.K, moduli.G, history);
+        const auto         strain = n == 1 ? increment.strain : increment.strain * Number(1. / n);
+        for (unsigned int part = 0; part < n; ++part)
+          {
+            if (n > 1)
+              t = trial(stress, strain, moduli.K, moduli.G, history);
+            dissipation += step(t, stress, increment.dt / n, moduli.K, moduli.G, history, response.iterations);
+          }
+        response.substeps = n;
+        p                 = pressure(stress);
+        J2                = second_invariant(deviator(stress));
+      }
+
+    response.stress = stress;
+    if constexpr (Stiffness::changes)
+      count_energies(response, dissipation, moduli, pressure(stress_n), second_invariant(deviator(stress_n)), p, J2,
+                     increment);
+    else
+      {
+        response.wave_speed = square_root(Number((moduli.K + Number(4. / 3.) * moduli.G) / increment.density));
+        response.stored     = (p * p * moduli.G + J2 * moduli.K) / (Number(2.) * moduli.K * moduli.G);
+        response.dissipated = dissipation.volume + dissipation.shear;
       }
     return response;
   }
@@ -164,6 +184,9 @@ struct ViscoplasticCap
   /// Sentences with the numbers, for the log.
   std::vector<std::string> warnings() const;
 
+  /// The flow rule of a step.
+  CapFlow flow(const double dt) const { return {viscosity != Viscosity::perzyna, fluidity * dt, overstress, exponent}; }
+
   Stiffness   stiffness;
   CapSurface  surface;
   std::string viscosity_name  = "Perzyna";
@@ -178,37 +201,109 @@ struct ViscoplasticCap
 private:
   std::string path;
 
-  /// Trial stress and its invariants. J2 carries a floor below round-off so that its root can be differentiated.
+  /// Inelastic work of a step [J/m^3]: pressure times volume strain, deviator times distortion.
+  template <typename Number>
+  struct Dissipation
+  {
+    Number       volume = Number(0.), shear = Number(0.);
+    Dissipation &operator+=(const Dissipation &other)
+    {
+      volume += other.volume;
+      shear += other.shear;
+      return *this;
+    }
+  };
+
+  /// The pressure of @p stress_n and its deviator times rho_{n+1}/rho_n: the Kirchhoff deviator tau = J s goes through the step.
+  template <typename Number>
+  SymTensor<Number> with_kirchhoff_deviator(const SymTensor<Number>      &stress_n,
+                                            const PointIncrement<Number> &increment) const
+  {
+    return deviator(stress_n) * Number(increment.density / increment.density_old) - spherical(pressure(stress_n));
+  }
+
+  /// Energies with moduli that grow. Per reference volume, U = J K (e^{p/K} - 1 - p/K) + tau:tau/(4 G): the work that the logarithmic
+  /// spring p = K ln(rho/rho_z) and the shear of the reference volume give back, whatever the volume does. Moduli that grow keep the
+  /// stress and lose stored energy, which is dissipated. Everything divided by J for what is stored, by the mean J for what is dissipated.
+  template <typename Number>
+  void count_energies(Response<Number> &response, const Dissipation<Number> &dissipation,
+                      const StepModuli<Number> &moduli, const Number &p_n, const Number &J2_n, const Number &p,
+                      const Number &J2, const PointIncrement<Number> &increment) const
+  {
+    const Number J_n = Number(density()) / increment.density_old, J = Number(density()) / increment.density,
+                 per_mean_J = Number(2.) / (J_n + J);
+    const auto volume       = [](const Number &pressure, const Number &K) {
+      return K * exponential_remainder(Number(pressure / K));
+    };
+    const auto shear = [](const Number &invariant, const Number &volume_ratio, const Number &G) {
+      return Number(0.5) * invariant * volume_ratio * volume_ratio / G;
+    };
+    const Number lost = J_n * (volume(p_n, moduli.K_old) - volume(p_n, moduli.K)) +
+                        J * (volume(p, moduli.K) - volume(p, moduli.K_new)) + shear(J2_n, J_n, moduli.G_old) -
+                        shear(J2_n, J_n, moduli.G_mean) + shear(J2, J, moduli.G_mean) - shear(J2, J, moduli.G_new);
+    response.dissipated = dissipation.volume + (J * dissipation.shear + lost) * per_mean_J;
+    response.stored     = volume(p, moduli.K_new) + shear(J2, J, moduli.G_new) / J;
+    response.wave_speed =
+      square_root(Number(moduli.K_new / increment.density + Number(4. / 3.) * moduli.G_new * Number(1. / density())));
+  }
+
+  /// The step without flow. An open gap carries no pressure: tension is unloaded first, then the gap closes, and only what is left
+  /// of the volume strain compresses.
   template <typename Number>
   struct Trial
   {
     SymTensor<Number> s;
-    Number            I1, j;
+    Number            I1, J2, closing;
   };
   template <typename Number>
-  Trial<Number> trial(const SymTensor<Number> &stress, const SymTensor<Number> &strain, const Number &volume_strain,
-                      const Number &K, const Number &G) const
+  Trial<Number> trial(const SymTensor<Number> &stress, const SymTensor<Number> &strain, const Number &K,
+                      const Number &G, const History<Number> &history) const
   {
     Trial<Number> t;
+    Number        volume_strain = trace(strain);
+    t.closing                   = Number(0.);
+    if (gap_closure && any_of(history.separation > Number(0.)))
+      {
+        const Number unloading = max(Number(trace(stress)), Number(0.)) / (Number(3.) * K);
+        t.closing              = min(max(Number(-volume_strain - unloading), Number(0.)), history.separation);
+        volume_strain += t.closing;
+      }
     t.s  = deviator(stress) + deviator(strain) * Number(Number(2.) * G);
     t.I1 = -trace(stress) - Number(3.) * K * volume_strain;
-    t.j  = square_root(Number(second_invariant(t.s) + Number(1e-32 * surface.F0 * surface.F0)));
+    t.J2 = second_invariant(t.s);
     return t;
+  }
+
+  /// True if no lane comes near its surface.
+  template <typename Number>
+  bool stays_elastic(const Trial<Number> &t, const History<Number> &history) const
+  {
+    return !any_of(!surface.surely_inside(value_of(t.I1), value_of(t.J2), value_of(history.cap_junction)));
+  }
+
+  /// The trial state becomes the state. @return dissipated energy [J/m^3], of the gap
+  template <typename Number>
+  Number accept(const Trial<Number> &t, SymTensor<Number> &stress, History<Number> &history) const
+  {
+    const Number p_n = pressure(stress), p = t.I1 * Number(1. / 3.);
+    stress = t.s - spherical(p);
+    history.separation -= t.closing;
+    return Number(0.5) * (p_n + p) * t.closing;
   }
 
   /// Number of parts of a step: strains above `substep_size` times those that cross the surface, |dev| > F/G, |vol| > X/(3K), are
   /// divided where the state yields. The same for all lanes.
   template <typename Number>
-  unsigned int parts(const SymTensor<Number> &stress, const PointIncrement<Number> &increment, const Number &K,
-                     const Number &G, const History<Number> &history) const
+  unsigned int parts(const Trial<Number> &t, const SymTensor<Number> &stress, const SymTensor<Number> &strain,
+                     const Number &K, const Number &G, const History<Number> &history) const
   {
     constexpr unsigned int most = 1000;
     if (substep_size == 0.)
       return 1;
     using V        = Value<Number>;
-    const V volume = V(3.) * absolute(value_of(trace(increment.strain))) * value_of(K);
+    const V volume = V(3.) * absolute(value_of(trace(strain))) * value_of(K);
     const V shear =
-      V(2.) * value_of(square_root(Number(second_invariant(deviator(increment.strain)) + Number(1e-60)))) * value_of(G);
+      V(2.) * value_of(square_root(Number(second_invariant(deviator(strain)) + Number(1e-60)))) * value_of(G);
     // bounds of strength and X from below that cost nothing, before the surface is asked
     const V xi = value_of(history.cap_junction), c = V(substep_size);
     const V near_X =
@@ -220,8 +315,7 @@ private:
     const V    needed   = max(V(shear / strength), V(volume / cap.X));
     if (!any_of(needed > c))
       return 1;
-    const auto    t      = trial(stress, increment.strain, trace(increment.strain), K, G);
-    const Mask<V> yields = surface.yield_function(value_of(t.I1), value_of(t.j), cap) > V(0.);
+    const Mask<V> yields = surface.yield_function(value_of(t.I1), square_root(value_of(t.J2)), cap) > V(0.);
     double        n      = 1.;
     for (int l = 0; l < n_lanes<V>(); ++l)
       if (mask_lane(yields, l))
@@ -229,45 +323,35 @@ private:
     return static_cast<unsigned int>(std::min(n, double(most)));
   }
 
-  /// One part. @return dissipated energy [J/m^3], with the mean stress, so that stored and dissipated energy add up to the work.
+  /// One part. @return what it dissipates with the mean stress, so that stored and dissipated energy add up to the work.
   template <typename Number>
-  Number step(SymTensor<Number> &stress, const SymTensor<Number> &strain, const double dt, const Number &K,
-              const Number &G, History<Number> &history) const
+  Dissipation<Number> step(const Trial<Number> &t, SymTensor<Number> &stress, const double dt, const Number &K,
+                           const Number &G, History<Number> &history, Iterations &iterations) const
   {
-    Number volume_strain = trace(strain), closing = Number(0.);
-    if (gap_closure && any_of(history.separation > Number(0.)))
-      {
-        // an open gap carries no pressure: tension is unloaded first, then the gap closes, then pores are compressed
-        const Number unloading = max(Number(trace(stress)), Number(0.)) / (Number(3.) * K);
-        closing                = min(max(Number(-volume_strain - unloading), Number(0.)), history.separation);
-        history.separation -= closing;
-        volume_strain += closing;
-      }
+    history.separation -= t.closing;
     const SymTensor<Number> old = stress;
-    const Trial<Number>     t   = trial(stress, strain, volume_strain, K, G);
+    // J2 carries a floor below round-off so that its root can be differentiated
+    const Number j_trial = square_root(Number(t.J2 + Number(1e-32 * surface.F0 * surface.F0)));
 
-    CapFlow flow;
-    flow.rate_independent = viscosity != Viscosity::perzyna;
-    flow.fluidity_dt      = fluidity * dt;
-    flow.f0               = overstress;
-    flow.exponent         = exponent;
-    CapReturn<Number> result(surface, flow, K, G);
-    result.solve(t.I1, t.j, history.cap_junction);
+    const CapFlow     rule = flow(dt);
+    CapReturn<Number> result(surface, rule, K, G);
+    result.solve(t.I1, j_trial, history.cap_junction);
+    iterations += result.iterations();
     if (viscosity == Viscosity::duvaut_lions)
       {
         const Number w = Number(relaxation_time > 0. ? dt / (relaxation_time + dt) : 1.);
         result.I1      = t.I1 + w * (result.I1 - t.I1);
-        result.j       = t.j + w * (result.j - t.j);
+        result.j       = j_trial + w * (result.j - j_trial);
         if (any_of(result.xi > history.cap_junction))
           {
             const Number X_n = surface.cap(history.cap_junction).X;
-            result.xi =
-              surface.junction(Number(X_n + w * (surface.cap(result.xi).X - X_n)), history.cap_junction, result.xi);
+            result.xi = surface.junction(Number(X_n + w * (surface.cap(result.xi).X - X_n)), history.cap_junction,
+                                         result.xi, iterations);
           }
       }
     history.cap_junction = result.xi;
 
-    const Number ratio  = result.j / t.j;
+    const Number ratio  = result.j / j_trial;
     stress              = t.s * ratio;
     const Number mean   = result.I1 * Number(1. / 3.);
     const Number opened = (result.I1 - t.I1) / (Number(3.) * K); // inelastic volume strain
@@ -279,7 +363,7 @@ private:
     // mean stress : inelastic strain
     const Number p_mean = Number(0.5) * (pressure(old) + mean);
     const auto   s_mean = (deviator(old) + t.s * ratio) * Number(0.5);
-    return contract(s_mean, t.s) * (Number(1.) - ratio) / (Number(2.) * G) - p_mean * (opened - closing);
+    return {-p_mean * (opened - t.closing), contract(s_mean, t.s) * (Number(1.) - ratio) / (Number(2.) * G)};
   }
 };
 
