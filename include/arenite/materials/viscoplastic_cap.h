@@ -125,7 +125,7 @@ struct ViscoplasticCap
     Number              p, J2;
     if (stays_elastic(t, history))
       {
-        dissipation.volume = accept(t, stress, history);
+        dissipation.volume = accept(t, stress, moduli.K, history);
         p                  = t.I1 * Number(1. / 3.);
         J2                 = t.J2;
       }
@@ -214,6 +214,17 @@ private:
     }
   };
 
+  /// What an inelastic volume strain dissipates per unit [Pa]: p, and where stored energy is that of the reference volume, the elastic
+  /// energy of the present volume, which the strain takes from or adds to the body: d(J U) = J U d eps_vp.
+  template <typename Number>
+  Number pressure_of_flow(const Number &p, const Number &K) const
+  {
+    if constexpr (Stiffness::changes)
+      return p + K * exponential_remainder(Number(p / K));
+    else
+      return p;
+  }
+
   /// The pressure of @p stress_n and its deviator times rho_{n+1}/rho_n: the Kirchhoff deviator tau = J s goes through the step.
   template <typename Number>
   SymTensor<Number> with_kirchhoff_deviator(const SymTensor<Number>      &stress_n,
@@ -283,12 +294,12 @@ private:
 
   /// The trial state becomes the state. @return dissipated energy [J/m^3], of the gap
   template <typename Number>
-  Number accept(const Trial<Number> &t, SymTensor<Number> &stress, History<Number> &history) const
+  Number accept(const Trial<Number> &t, SymTensor<Number> &stress, const Number &K, History<Number> &history) const
   {
     const Number p_n = pressure(stress), p = t.I1 * Number(1. / 3.);
     stress = t.s - spherical(p);
     history.separation -= t.closing;
-    return Number(0.5) * (p_n + p) * t.closing;
+    return pressure_of_flow(Number(Number(0.5) * (p_n + p)), K) * t.closing;
   }
 
   /// Number of parts of a step: strains above `substep_size` times those that cross the surface, |dev| > F/G, |vol| > X/(3K), are
@@ -363,7 +374,8 @@ private:
     // mean stress : inelastic strain
     const Number p_mean = Number(0.5) * (pressure(old) + mean);
     const auto   s_mean = (deviator(old) + t.s * ratio) * Number(0.5);
-    return {-p_mean * (opened - t.closing), contract(s_mean, t.s) * (Number(1.) - ratio) / (Number(2.) * G)};
+    return {-pressure_of_flow(p_mean, K) * (opened - t.closing),
+            contract(s_mean, t.s) * (Number(1.) - ratio) / (Number(2.) * G)};
   }
 };
 
