@@ -1,10 +1,9 @@
+#include <arenite/verification/free_vibration.h>
 #include <arenite/verification/surface_load.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
-
-#include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -61,14 +60,7 @@ SurfaceLoad::SurfaceLoad(const LinearElastic &material, const double disc_radius
   step = 1e-3 * (breaks.back() - breaks.front());
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
     step = std::min(step, 1e-3 * (breaks[i + 1] - breaks[i]));
-  const auto real_function = [this](const double z) {
-    const double first = b * b - 2. * z * z;
-    return first * first - 4. * z * z * std::sqrt((z * z - a * a) * (z * z - b * b));
-  };
-  std::uintmax_t iterations = 100;
-  const auto     bracket    = boost::math::tools::toms748_solve(real_function, b, 2. * b,
-                                                                boost::math::tools::eps_tolerance<double>(52), iterations);
-  rayleigh_slowness         = 0.5 * (bracket.first + bracket.second);
+  rayleigh_slowness = 1. / Arenite::rayleigh_speed(material);
 }
 
 double SurfaceLoad::pressure_rate(const double t) const
