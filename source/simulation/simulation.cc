@@ -223,7 +223,7 @@ void Simulation<dim>::run(const OutputDirectory &directory)
   record.time            = state.time;
   record.energy_error    = dynamics->balance.largest_error();
   record.symmetry_factor = scene.mesh.geometry->symmetry_factor();
-  if (scene.exact_solution)
+  if (scene.exact_solution && scene.exact_solution->is_field())
     {
       record.errors.merge(volume_errors(discretization, material_of_block(), state.displacement,
                                         dynamics->velocity(state), *scene.exact_solution, state.time));

@@ -268,6 +268,66 @@ dealii::SymmetricTensor<2, 3> ShearMode<dim>::mode_stress(const dealii::Point<di
   return stress;
 }
 
+double rayleigh_speed(const LinearElastic &material)
+{
+  const double ratio    = std::pow(material.s_wave_speed() / material.p_wave_speed(), 2);
+  const auto   function = [ratio](const double x) {
+    return std::pow(2. - x, 2) - 4. * std::sqrt((1. - ratio * x) * (1. - x));
+  };
+  std::uintmax_t iterations = 100;
+  // x = 0 is a root, too; the wave has x > 0.76 for every nu > 0 and 0.47 for nu = -1
+  const auto bracket =
+    boost::math::tools::toms748_solve(function, 0.4, 1., boost::math::tools::eps_tolerance<double>(52), iterations);
+  return material.s_wave_speed() * std::sqrt(0.5 * (bracket.first + bracket.second));
+}
+
+template <int dim>
+RayleighMode<dim>::RayleighMode(const LinearElastic &material, const double length, const unsigned int number)
+  : FreeVibration<dim>(material)
+  , length(length)
+  , q(std::sqrt(1. - std::pow(rayleigh_speed(material) / material.p_wave_speed(), 2)))
+  , s(std::sqrt(1. - std::pow(rayleigh_speed(material) / material.s_wave_speed(), 2)))
+{
+  this->number = number;
+}
+
+template <int dim>
+double RayleighMode<dim>::wave_number() const
+{
+  return this->number * PI / length;
+}
+
+template <int dim>
+double RayleighMode<dim>::angular_frequency() const
+{
+  return rayleigh_speed(this->material) * wave_number();
+}
+
+template <int dim>
+dealii::Tensor<1, dim> RayleighMode<dim>::mode(const dealii::Point<dim> &x) const
+{
+  const double           k = wave_number(), P = std::exp(k * q * x[dim - 1]), S = std::exp(k * s * x[dim - 1]);
+  dealii::Tensor<1, dim> phi;
+  phi[0]       = -(P - 2. * q * s / (1. + s * s) * S) * std::sin(k * x[0]);
+  phi[dim - 1] = q * (P - 2. / (1. + s * s) * S) * std::cos(k * x[0]);
+  return phi;
+}
+
+template <int dim>
+dealii::SymmetricTensor<2, 3> RayleighMode<dim>::mode_stress(const dealii::Point<dim> &x) const
+{
+  constexpr int v = dim - 1;
+  const double  k = wave_number(), P = std::exp(k * q * x[v]), S = std::exp(k * s * x[v]);
+  const double  cosine = std::cos(k * x[0]), sine = std::sin(k * x[0]);
+
+  dealii::Tensor<2, dim> gradient;
+  gradient[0][0] = -k * (P - 2. * q * s / (1. + s * s) * S) * cosine;
+  gradient[0][v] = -k * (q * P - 2. * q * s * s / (1. + s * s) * S) * sine;
+  gradient[v][0] = -k * q * (P - 2. / (1. + s * s) * S) * sine;
+  gradient[v][v] = k * q * (q * P - 2. * s / (1. + s * s) * S) * cosine;
+  return this->material.stress(gradient);
+}
+
 template class FreeVibration<1>;
 template class FreeVibration<2>;
 template class FreeVibration<3>;
@@ -278,4 +338,6 @@ template class LameMode<2>;
 template class LameMode<3>;
 template class ShearMode<2>;
 template class ShearMode<3>;
+template class RayleighMode<2>;
+template class RayleighMode<3>;
 } // namespace Arenite

@@ -567,6 +567,8 @@ BOOST_AUTO_TEST_CASE(mode_equations)
               {Tensor<1, 3>({-1., 0., 0.}), Tensor<1, 3>({1., 0., 0.}), Tensor<1, 3>({0., -1., 0.}),
                Tensor<1, 3>({0., 1., 0.}), Tensor<1, 3>({0., 0., 1.})});
       examine(ShearMode<3>(material, b, n), "shear", {}, {});
+      examine(RayleighMode<3>(material, b, n), "Rayleigh wave", {Point<3>(0.3, 0.2, 0.), Point<3>(0.9, 0.1, 0.)},
+              {Tensor<1, 3>({0., 0., 1.}), Tensor<1, 3>({0., 0., 1.})});
       BOOST_TEST(ShearMode<3>(material, b, n).mode(Point<3>(0.2, b, 0.3)).norm() < 1e-15 * 4);
     }
   // the centre of the ball is an ordinary point

@@ -33,6 +33,10 @@ public:
   virtual dealii::Tensor<1, dim> body_force(const dealii::Point<dim> &, double) const { return {}; }
   virtual bool                   has_body_force() const { return false; }
 
+  /// False if the displacement alone is known, and only where known_at() says so: no volume errors, initial states or boundary values.
+  virtual bool is_field() const { return true; }
+  virtual bool known_at(const dealii::Point<dim> &, double) const { return true; }
+
   virtual void declare_parameters(Parameters &) {}
   virtual void finalize() {}
 };

@@ -108,4 +108,29 @@ private:
   double height;
   double wave_number() const;
 };
+/// Standing Rayleigh wave (dim >= 2) below the free surface x_v = 0 of a half-space, v the last coordinate, between smooth walls at x_1 = 0
+/// and L, k = n pi/L, w = k cR:
+///
+///   phi_1 = -[e^{k q x_v} - 2 q s/(1 + s^2) e^{k s x_v}] sin(k x_1),    phi_v = q [e^{k q x_v} - 2/(1 + s^2) e^{k s x_v}] cos(k x_1)
+///   q^2 = 1 - cR^2/cp^2,   s^2 = 1 - cR^2/cs^2,   (1 + s^2)^2 = 4 q s
+///
+/// Down to 6 wavelengths below the surface it decays to 4e-7 (nu = 1/4); prescribe the displacement there. Source: Rayleigh (1885).
+template <int dim>
+class RayleighMode : public FreeVibration<dim>
+{
+public:
+  RayleighMode(const LinearElastic &material, double length, unsigned int number = 1);
+
+  double                        angular_frequency() const override;
+  dealii::Tensor<1, dim>        mode(const dealii::Point<dim> &x) const override;
+  dealii::SymmetricTensor<2, 3> mode_stress(const dealii::Point<dim> &x) const override;
+
+private:
+  double length;
+  double wave_number() const;
+  double q, s; ///< decay with depth over k
+};
+
+/// cR [m/s]: (2 - x)^2 = 4 sqrt(1 - x cs^2/cp^2) sqrt(1 - x), x = cR^2/cs^2.
+double rayleigh_speed(const LinearElastic &);
 } // namespace Arenite

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <arenite/mesh/geometry.h>
+
+#include <string>
+#include <vector>
+
+namespace Arenite
+{
+/// Half-space with a spherical cavity below its surface: the quarter x, y > 0, or the meridian plane r > 0. The cavity's centre is the
+/// origin, the last coordinate points up, the surface lies at z = depth.
+///
+/// A cube-shaped core [-s, s] around the cavity, halfway between cavity and surface and at most twice the radius, is blended
+/// between sphere and faces; around it bricks, as wide as the core's half-side s next to it and longer by the factor `Growth` from one
+/// to the next, out to the distance `Outer distance` at the sides and below.
+template <int dim>
+class HalfSpace : public Geometry<dim>
+{
+public:
+  HalfSpace();
+  void   declare_parameters(Parameters &) override;
+  void   finalize(const Parameters &) override;
+  void   create(dealii::Triangulation<dim> &) const override;
+  double symmetry_factor() const override;
+
+private:
+  double      radius = 0.1, depth = 0.5, outer_distance = 2., growth = 1.2;
+  std::string path;
+
+  double              core() const; ///< s [m]
+  std::vector<double> lines(bool upwards) const;
+};
+} // namespace Arenite
