@@ -1,4 +1,5 @@
 #include <arenite/mesh/geometry.h>
+#include <arenite/mesh/half_space.h>
 #include <arenite/mesh/imported_mesh.h>
 #include <arenite/mesh/round_bodies.h>
 
@@ -160,7 +161,12 @@ Registry<Geometry<dim>> make_geometries()
       registry.template add<Cylinder>("cylinder", "Solid circular cylinder along x; three dimensions only.");
     }
   if constexpr (dim > 1)
-    registry.template add<ImportedMesh<dim>>("file", "Hexahedra (quadrilaterals) from a Gmsh file, audited.");
+    {
+      registry.template add<HalfSpace<dim>>(
+        "half-space",
+        "Spherical cavity below a free surface: quarter of the body, or its meridian plane. Not in one dimension.");
+      registry.template add<ImportedMesh<dim>>("file", "Hexahedra (quadrilaterals) from a Gmsh file, audited.");
+    }
   return registry;
 }
 } // namespace

@@ -3,6 +3,7 @@
 #include <arenite/verification/plane_wave.h>
 #include <arenite/verification/solution_choice.h>
 #include <arenite/verification/spherical_cavity.h>
+#include <arenite/verification/surface_motion.h>
 
 namespace Arenite
 {
@@ -12,16 +13,18 @@ template <int dim>
 void SolutionChoice<dim>::declare_parameters(Parameters &parameters)
 {
   const auto section = parameters.section("Verification");
-  parameters.add_choice(
-    "Exact solution", type,
-    {"none", "spherical cavity", "plane wave", "breathing mode", "torsion mode", "Lame mode", "shear mode",
-     "manufactured cube", "manufactured shell"},
-    "Closed form to compare with. The waves take their pressure from the scene's first pressure load; manufactured "
-    "solutions add their body force.");
+  parameters.add_choice("Exact solution", type,
+                        {"none", "spherical cavity", "plane wave", "breathing mode", "torsion mode", "Lame mode",
+                         "shear mode", "Rayleigh mode", "buried cavity", "manufactured cube", "manufactured shell"},
+                        "Closed form to compare with; that of the buried cavity holds for displacements of the "
+                        "surface. The waves take their pressure from the scene's first pressure load; manufactured "
+                        "solutions add their body force.");
   parameters.add_quantity("Inner radius", inner_radius, "m", non_negative,
                           "Cavity radius, or inner radius of a vibrating shell (0: ball).");
+  parameters.add_quantity("Depth", depth, "m", positive, "Of a buried cavity's centre below the surface.");
   parameters.add_quantity("Outer radius", outer_radius, "m", positive, "Radius of a vibrating ball or shell.");
-  parameters.add_quantity("Side", side, "m", positive, "Side of the cube or height of the layer.");
+  parameters.add_quantity("Side", side, "m", positive,
+                          "Side of the cube, height of the layer, half of a Rayleigh wave.");
   parameters.add_quantity("Amplitude", amplitude, "m", positive,
                           "Largest displacement of a mode or manufactured solution.");
   parameters.add_quantity("Angular frequency", frequency, "1/s", positive, "Of a manufactured solution.");
@@ -36,7 +39,9 @@ bool SolutionChoice<dim>::fits(const Symmetry symmetry) const
     return true;
   if (type == "spherical cavity" || type == "breathing mode" || type == "manufactured shell")
     return n_hoop_directions(symmetry) > 0;
-  if (type == "Lame mode" || type == "shear mode")
+  if (type == "buried cavity")
+    return symmetry == Symmetry::axisymmetric;
+  if (type == "Lame mode" || type == "shear mode" || type == "Rayleigh mode")
     return symmetry == Symmetry::plane_strain;
   return n_hoop_directions(symmetry) == 0 && type != "torsion mode";
 }
@@ -50,12 +55,19 @@ std::shared_ptr<const ExactSolution<dim>> SolutionChoice<dim>::make(const Parame
   const std::string entry = "Verification/Exact solution";
   if (!fits(symmetry))
     parameters.refuse(entry, "is no motion of a scene with 'Symmetry = " + name(symmetry) + "'");
-  if ((type == "spherical cavity" || type == "plane wave") && !pressure)
+  if ((type == "spherical cavity" || type == "plane wave" || type == "buried cavity") && !pressure)
     parameters.refuse(entry, "needs a load of type 'pressure' in the scene");
   if ((type == "spherical cavity" || type == "manufactured shell") && inner_radius == 0.)
     parameters.refuse("Verification/Inner radius", "must be positive for '" + type + "'");
   if (type == "spherical cavity")
     return std::make_shared<SphericalCavity<dim>>(material, inner_radius, pressure);
+  if (type == "buried cavity")
+    {
+      if (depth <= inner_radius)
+        parameters.refuse("Verification/Depth", "must be larger than 'Inner radius'");
+      if constexpr (dim > 1)
+        return std::make_shared<BuriedCavityMotion<dim>>(material, inner_radius, depth, pressure);
+    }
   if (type == "plane wave")
     {
       auto wave = std::make_shared<PlaneWave<dim>>(material, pressure);
@@ -75,6 +87,8 @@ std::shared_ptr<const ExactSolution<dim>> SolutionChoice<dim>::make(const Parame
         vibration = std::make_shared<LameMode<dim>>(material, side, mode);
       else if (type == "shear mode")
         vibration = std::make_shared<ShearMode<dim>>(material, side, mode);
+      else if (type == "Rayleigh mode")
+        vibration = std::make_shared<RayleighMode<dim>>(material, side, mode);
     }
   if constexpr (dim == 3)
     if (type == "torsion mode")
