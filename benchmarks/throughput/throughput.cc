@@ -7,7 +7,7 @@
 // that counts its operations; the bytes are what must cross from memory if every entry is fetched once per sweep.
 
 #include <arenite/base/version.h>
-#include <arenite/mechanics/hexahedron.h>
+#include <arenite/mechanics/multilinear_element.h>
 #include <arenite/mechanics/spectral_element.h>
 #include <arenite/simulation/scene.h>
 #include <arenite/time/dynamics.h>

@@ -4,6 +4,8 @@
 
 #include <deal.II/distributed/cell_data_transfer.templates.h>
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/numerics/adaptation_strategies.h>
+#include <deal.II/numerics/cell_data_transfer.templates.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,12 +67,19 @@ void MeshAdaptor<dim>::grow(Triangulation &triangulation, std::vector<bool> &mar
       for (const auto &cell : triangulation.active_cell_iterators())
         if (cell->is_locally_owned() && marked[cell->active_cell_index()])
           mark_vertices(cell);
-      GridTools::exchange_cell_data_to_ghosts<unsigned int, dealii::Triangulation<dim>>(
-        triangulation, [&](const Cell &cell) { return marked[cell->active_cell_index()] ? 1u : 0u; },
-        [&](const Cell &cell, const unsigned int value) {
-          if (value)
-            mark_vertices(cell);
-        });
+      if constexpr (dim == 1)
+        {
+          std::vector<int> marks(vertex.begin(), vertex.end());
+          Utilities::MPI::max(marks, triangulation.get_communicator(), marks);
+          vertex.assign(marks.begin(), marks.end());
+        }
+      else
+        GridTools::exchange_cell_data_to_ghosts<unsigned int, dealii::Triangulation<dim>>(
+          triangulation, [&](const Cell &cell) { return marked[cell->active_cell_index()] ? 1u : 0u; },
+          [&](const Cell &cell, const unsigned int value) {
+            if (value)
+              mark_vertices(cell);
+          });
       for (const auto &cell : triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           for (const unsigned int v : cell->vertex_indices())
@@ -94,7 +103,33 @@ void MeshAdaptor<dim>::flag(Triangulation &triangulation, const std::vector<bool
         else if (quiet[cell->active_cell_index()] && !front[cell->active_cell_index()] && level > base_level)
           cell->set_coarsen_flag();
       }
+  share_flags(triangulation);
   triangulation.prepare_coarsening_and_refinement();
+}
+
+/// In one dimension every process changes the whole mesh: it needs the flags of all.
+template <int dim>
+void MeshAdaptor<dim>::share_flags(Triangulation &triangulation) const
+{
+  if constexpr (dim == 1)
+    {
+      std::vector<int> flags(triangulation.n_active_cells(), 0);
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          flags[cell->active_cell_index()] = cell->refine_flag_set() ? 1 : (cell->coarsen_flag_set() ? -1 : 0);
+      Utilities::MPI::sum(flags, triangulation.get_communicator(), flags);
+      for (const auto &cell : triangulation.active_cell_iterators())
+        {
+          cell->clear_refine_flag();
+          cell->clear_coarsen_flag();
+          if (flags[cell->active_cell_index()] > 0)
+            cell->set_refine_flag();
+          else if (flags[cell->active_cell_index()] < 0)
+            cell->set_coarsen_flag();
+        }
+    }
+  else
+    (void)triangulation;
 }
 
 template <int dim>
@@ -126,7 +161,7 @@ void MeshAdaptor<dim>::initial_refinement(Triangulation &triangulation, Discreti
       discretization.distribute_nodes();
       transfer.interpolate();
       transfer.next(discretization.positions);
-      make_consistent(discretization, discretization.positions);
+      discretization.complete_positions();
       if (refine_geometry)
         discretization.positions_from_manifolds();
     }
@@ -181,6 +216,63 @@ void MeshAdaptor<dim>::check_size(const Triangulation &triangulation, const doub
                      " cells. Raise 'Adaptivity / Largest number of cells', raise 'Refine above' or use fewer levels.");
 }
 
+namespace
+{
+/// One number per active cell: children take that of their parent, a parent the largest of its children.
+template <int dim>
+class RatioTransfer
+{
+public:
+  explicit RatioTransfer(ParallelTriangulation<dim> &triangulation)
+    : triangulation(triangulation)
+    , transfer(make(triangulation))
+  {}
+
+  void prepare(const Vector<double> &values, const Discretization<dim> &discretization)
+  {
+    before.reinit(values.size());
+    for (const auto &cell : discretization.cells())
+      before[cell->active_cell_index()] = values[cell->active_cell_index()];
+    if constexpr (dim == 1)
+      {
+        sum_over_processes(before, discretization.communicator);
+        transfer.prepare_for_coarsening_and_refinement();
+      }
+    else
+      transfer.prepare_for_coarsening_and_refinement(before);
+  }
+
+  void unpack(Vector<double> &values)
+  {
+    values.reinit(triangulation.n_active_cells());
+    if constexpr (dim == 1)
+      transfer.unpack(before, values);
+    else
+      transfer.unpack(values);
+  }
+
+private:
+  using Transfer = std::conditional_t<dim == 1, CellDataTransfer<dim, dim, Vector<double>>,
+                                      parallel::distributed::CellDataTransfer<dim, dim, Vector<double>>>;
+
+  static Transfer make(ParallelTriangulation<dim> &triangulation)
+  {
+    const auto largest = [](const typename dealii::Triangulation<dim>::cell_iterator &,
+                            const std::vector<double> &children) {
+      return *std::max_element(children.begin(), children.end());
+    };
+    if constexpr (dim == 1)
+      return Transfer(triangulation, &AdaptationStrategies::Refinement::preserve<dim, dim, double>, largest);
+    else
+      return Transfer(triangulation, false, &AdaptationStrategies::Refinement::preserve<dim, dim, double>, largest);
+  }
+
+  ParallelTriangulation<dim> &triangulation;
+  Vector<double>              before;
+  Transfer                    transfer;
+};
+} // namespace
+
 template <int dim>
 void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dynamics, State<dim> &state,
                                StableTimeStep<dim> &time_step) const
@@ -201,18 +293,14 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
         transfer.add(consistent);
       }
   transfer.prepare();
-  parallel::distributed::CellDataTransfer<dim, dim, Vector<double>> ratios(
-    triangulation, false, &AdaptationStrategies::Refinement::preserve<dim, dim, double>,
-    [](const typename dealii::Triangulation<dim>::cell_iterator &, const std::vector<double> &children) {
-      return *std::max_element(children.begin(), children.end());
-    });
-  ratios.prepare_for_coarsening_and_refinement(time_step.ratio);
+  RatioTransfer<dim> ratios(triangulation);
+  ratios.prepare(time_step.ratio, discretization);
   triangulation.execute_coarsening_and_refinement();
 
   discretization.distribute_nodes();
   transfer.interpolate();
   transfer.next(discretization.positions);
-  make_consistent(discretization, discretization.positions);
+  discretization.complete_positions();
   if (refine_geometry)
     discretization.positions_from_manifolds();
 
@@ -230,7 +318,6 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
       }
   zero_at_hanging_nodes(discretization, state.half_velocity);
 
-  time_step.ratio.reinit(triangulation.n_active_cells());
   ratios.unpack(time_step.ratio);
 }
 
@@ -248,5 +335,7 @@ void MeshAdaptor<dim>::schedule(const Dynamics<dim> &dynamics, const double time
   next_time = time + std::max(layers - 1., 0.5) * crossing;
 }
 
+template class MeshAdaptor<1>;
+template class MeshAdaptor<2>;
 template class MeshAdaptor<3>;
 } // namespace Arenite

@@ -82,5 +82,7 @@ const Registry<RefinementIndicator<dim>> &refinement_indicators()
   return registry;
 }
 
+template const Registry<RefinementIndicator<1>> &refinement_indicators<1>();
+template const Registry<RefinementIndicator<2>> &refinement_indicators<2>();
 template const Registry<RefinementIndicator<3>> &refinement_indicators<3>();
 } // namespace Arenite

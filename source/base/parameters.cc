@@ -205,7 +205,8 @@ void Parameters::add_vector(const std::string &name, dealii::Tensor<1, dim> &val
 
 template <int dim>
 void Parameters::add_points(const std::string &name, std::vector<dealii::Point<dim>> &value, const std::string &unit,
-                            const std::string &sentence)
+                            const std::string                                                 &sentence,
+                            const std::function<dealii::Point<dim>(const dealii::Point<3> &)> &reduce)
 {
   const auto all_to_text = [](const std::vector<dealii::Point<dim>> &points) {
     std::vector<std::string> texts;
@@ -216,21 +217,23 @@ void Parameters::add_points(const std::string &name, std::vector<dealii::Point<d
 
   const std::string form = dim == 1 ? "x; x" : dim == 2 ? "x, y; x, y" : "x, y, z; x, y, z";
   Entry entry{name, all_to_text(value), "", unit, "points '" + form + "'", sentence, false, false, nullptr, {}, {}};
-  entry.pattern   = std::make_shared<Patterns::List>(Patterns::List(Patterns::Double(), dim, dim), 0,
+  const auto in_three = [reduce](const std::string &point) { return reduce && split_list(point, ',').size() == 3; };
+  entry.pattern       = std::make_shared<Patterns::List>(Patterns::List(Patterns::Double(), dim, reduce ? 3 : dim), 0,
                                                    Patterns::List::max_int_value, ";");
-  entry.complaint = [unit, form](const std::string &text) -> std::string {
+  entry.complaint     = [unit, form, in_three](const std::string &text) -> std::string {
     for (const std::string &point : split_list(text, ';'))
       {
-        const std::string complaint = complaint_about_vector(point, dim, unit);
+        const std::string complaint = complaint_about_vector(point, in_three(point) ? 3 : dim, unit);
         if (!complaint.empty())
           return "in point '" + excerpt(point) + "': " + complaint + " Write '" + form + "'.";
       }
     return "";
   };
-  entry.store = [&value, all_to_text](const std::string &text) {
+  entry.store = [&value, all_to_text, in_three, reduce](const std::string &text) {
     value.clear();
     for (const std::string &point : split_list(text, ';'))
-      value.emplace_back(to_vector<dim>(point));
+      value.push_back(in_three(point) ? reduce(dealii::Point<3>(to_vector<3>(point)))
+                                      : dealii::Point<dim>(to_vector<dim>(point)));
     return all_to_text(value);
   };
   add(std::move(entry));
@@ -557,7 +560,8 @@ std::string Parameters::source_text() const
   template void Parameters::add_vector<dim>(const std::string &, dealii::Tensor<1, dim> &, const std::string &, \
                                             const std::string &);                                               \
   template void Parameters::add_points<dim>(const std::string &, std::vector<dealii::Point<dim>> &,             \
-                                            const std::string &, const std::string &);
+                                            const std::string &, const std::string &,                           \
+                                            const std::function<dealii::Point<dim>(const dealii::Point<3> &)> &);
 ARENITE_INSTANTIATE(1)
 ARENITE_INSTANTIATE(2)
 ARENITE_INSTANTIATE(3)

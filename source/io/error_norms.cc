@@ -39,8 +39,8 @@ std::map<std::string, double> volume_errors(const Discretization<dim> &discretiz
       for (unsigned int q = 0; q < rule.size(); ++q)
         {
           const Tensor<2, dim> J      = fields.jacobian(cell, factors[q]);
-          const double         volume = rule.weight(q) * determinant(J);
           const Point<dim>     x      = fields.position(cell, factors[q]);
+          const double         volume = rule.weight(q) * determinant(J) * measure(discretization.symmetry, x);
           const auto           add    = [&](const unsigned int k, const auto &computed, const auto &known) {
             error[k] += volume * ((computed - known) * (computed - known));
             norm[k] += volume * (known * known);
@@ -101,10 +101,15 @@ std::map<std::string, double> traction_error(const Discretization<dim> &discreti
                                                Utilities::MPI::max(largest, discretization.communicator))}};
 }
 
-template std::map<std::string, double> volume_errors(const Discretization<3> &, const MaterialOfBlock &,
-                                                     const VectorType &, const VectorType &, const ExactSolution<3> &,
-                                                     double);
-template std::map<std::string, double> traction_error(const Discretization<3> &, const MaterialOfBlock &,
-                                                      const VectorType &, const std::vector<types::boundary_id> &,
-                                                      const ExactSolution<3> &, double);
+#define ARENITE_INSTANTIATE(dim)                                                                                     \
+  template std::map<std::string, double> volume_errors(const Discretization<dim> &, const MaterialOfBlock &,         \
+                                                       const VectorType &, const VectorType &,                       \
+                                                       const ExactSolution<dim> &, double);                          \
+  template std::map<std::string, double> traction_error(const Discretization<dim> &, const MaterialOfBlock &,        \
+                                                        const VectorType &, const std::vector<types::boundary_id> &, \
+                                                        const ExactSolution<dim> &, double);
+ARENITE_INSTANTIATE(1)
+ARENITE_INSTANTIATE(2)
+ARENITE_INSTANTIATE(3)
+#undef ARENITE_INSTANTIATE
 } // namespace Arenite

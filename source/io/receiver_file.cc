@@ -13,9 +13,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr const char *axis[3]             = {"x", "y", "z"};
-constexpr const char *stress_component[6] = {"xx", "yy", "zz", "xy", "xz", "yz"}; // raw entries of SymmetricTensor<2,3>
-
 bool is_root(const MPI_Comm communicator) { return Utilities::MPI::this_mpi_process(communicator) == 0; }
 
 void append(std::string &text, const double value)
@@ -36,7 +33,7 @@ class ReceiverTable : public ReceiverFile<dim>
 {
 public:
   ReceiverTable(const std::string &file_name, const std::vector<std::string> &names,
-                const ReceiverQuantities &quantities, const MPI_Comm communicator)
+                const ReceiverQuantities &quantities, const Symmetry symmetry, const MPI_Comm communicator)
     : ReceiverFile<dim>(points_of_root(names.size(), communicator))
     , file_name(file_name)
     , quantities(quantities)
@@ -51,11 +48,11 @@ public:
     for (const std::string &name : names)
       {
         for (unsigned int d = 0; d < dim && quantities.displacement; ++d)
-          text += "," + name + ".displacement_" + axis[d] + " [m]";
+          text += "," + name + ".displacement_" + direction_letters(symmetry)[d] + " [m]";
         for (unsigned int d = 0; d < dim && quantities.velocity; ++d)
-          text += "," + name + ".velocity_" + axis[d] + " [m/s]";
-        for (unsigned int k = 0; k < 6 && quantities.stress; ++k)
-          text += "," + name + ".stress_" + stress_component[k] + " [Pa]";
+          text += "," + name + ".velocity_" + direction_letters(symmetry)[d] + " [m/s]";
+        for (unsigned int k = 0; k < n_stress_components(dim) && quantities.stress; ++k)
+          text += "," + name + ".stress_" + stress_component(symmetry, k) + " [Pa]";
       }
     text += "\n";
     flush();
@@ -77,7 +74,7 @@ public:
           put(row.displacement[point][d]);
         for (unsigned int d = 0; d < dim && quantities.velocity; ++d)
           put(row.velocity[point][d]);
-        for (unsigned int k = 0; k < 6 && quantities.stress; ++k)
+        for (unsigned int k = 0; k < n_stress_components(dim) && quantities.stress; ++k)
           put(row.stress[point].access_raw_entry(k));
       }
     text += "\n";
@@ -119,10 +116,17 @@ std::vector<unsigned int> divide_points(const unsigned int n_points, const MPI_C
 template <int dim>
 std::unique_ptr<ReceiverFile<dim>> make_receiver_table(const std::string              &file_name,
                                                        const std::vector<std::string> &names,
-                                                       const ReceiverQuantities       &quantities,
-                                                       const MPI_Comm                  communicator)
+                                                       const ReceiverQuantities &quantities, const Symmetry symmetry,
+                                                       const MPI_Comm communicator)
 {
-  return std::make_unique<ReceiverTable<dim>>(file_name, names, quantities, communicator);
+  return std::make_unique<ReceiverTable<dim>>(file_name, names, quantities, symmetry, communicator);
+}
+
+std::string stress_component(const Symmetry symmetry, const unsigned int k)
+{
+  constexpr unsigned int first[] = {0, 1, 2, 0, 0, 1}, second[] = {0, 1, 2, 1, 2, 2};
+  const char            *letters = direction_letters(symmetry);
+  return {letters[first[k]], letters[second[k]]};
 }
 
 void write_text_file(const std::string &file_name, const std::string &text, const MPI_Comm communicator)
@@ -140,6 +144,13 @@ std::string table_number(const double value)
   return text;
 }
 
-template std::unique_ptr<ReceiverFile<3>> make_receiver_table<3>(const std::string &, const std::vector<std::string> &,
-                                                                 const ReceiverQuantities &, MPI_Comm);
+#define ARENITE_INSTANTIATE(dim)                                                                             \
+  template std::unique_ptr<ReceiverFile<dim>> make_receiver_table<dim>(const std::string &,                  \
+                                                                       const std::vector<std::string> &,     \
+                                                                       const ReceiverQuantities &, Symmetry, \
+                                                                       MPI_Comm);
+ARENITE_INSTANTIATE(1)
+ARENITE_INSTANTIATE(2)
+ARENITE_INSTANTIATE(3)
+#undef ARENITE_INSTANTIATE
 } // namespace Arenite

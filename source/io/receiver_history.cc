@@ -132,6 +132,10 @@ std::map<std::string, double> ReceiverNorms<dim>::of_set(const MPI_Comm communic
   return result;
 }
 
+template class ReceiverErrors<1>;
+template class ReceiverErrors<2>;
 template class ReceiverErrors<3>;
+template class ReceiverNorms<1>;
+template class ReceiverNorms<2>;
 template class ReceiverNorms<3>;
 } // namespace Arenite

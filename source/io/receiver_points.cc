@@ -22,9 +22,12 @@ void ReceiverPoints<dim>::declare_parameters(Parameters &parameters)
                         "Single points, written as a table; or a line or plane of points, written to receivers.h5.");
   if (type == "points")
     {
-      parameters.add_points("Points", points, "m", "Places of the receivers p1, p2, ...");
-      parameters.add_points("Directions", directions, "",
-                            "Directions from the origin, of any length, for receivers at all Radii: d1r1, d1r2, ...");
+      const Symmetry symmetry   = DimensionChoice(parameters).symmetry;
+      const auto     to_section = [symmetry](const Point<3> &x) { return reduce<dim>(symmetry, x); };
+      parameters.add_points<dim>("Points", points, "m", "Places of the receivers p1, p2, ...", to_section);
+      parameters.add_points<dim>(
+        "Directions", directions, "",
+        "Directions from the origin, of any length, for receivers at all Radii: d1r1, d1r2, ...", to_section);
       parameters.add_list("Radii", radii, "Distances from the origin [m] along every direction.");
     }
   else if (type == "line")
@@ -233,6 +236,10 @@ void PointLocation<dim>::project(const CellFields<dim> &fields, const std::vecto
       positions[point][d] = x_all[dim * point + d];
 }
 
+template class ReceiverPoints<1>;
+template class ReceiverPoints<2>;
 template class ReceiverPoints<3>;
+template class PointLocation<1>;
+template class PointLocation<2>;
 template class PointLocation<3>;
 } // namespace Arenite

@@ -239,7 +239,7 @@ class ReceiverGroup : public ReceiverFile<dim>
 {
 public:
   ReceiverGroup(std::shared_ptr<ReceiverStore> store_, const std::string &set, const std::vector<Point<dim>> &positions,
-                const ReceiverQuantities &quantities, const std::size_t n_rows)
+                const ReceiverQuantities &quantities, const Symmetry symmetry, const std::size_t n_rows)
     : ReceiverFile<dim>(divide_points(positions.size(), store_->communicator))
     , store(std::move(store_))
     , set(set)
@@ -249,24 +249,28 @@ public:
     , n_own_points(this->first_points[rank + 1] - first_point)
     , n_rows(n_rows)
   {
-    const std::string   axes[]   = {"x", "x,y", "x,y,z"};
+    std::string axes, stresses;
+    for (unsigned int d = 0; d < dim; ++d)
+      axes += (d == 0 ? "" : ",") + std::string(1, direction_letters(symmetry)[d]);
+    for (unsigned int k = 0; k < n_stress; ++k)
+      stresses += (k == 0 ? "" : ",") + stress_component(symmetry, k);
     const hsize_t       n_points = positions.size();
     std::vector<double> x;
     for (const Point<dim> &point : positions)
       for (unsigned int d = 0; d < dim; ++d)
         x.push_back(point[d]);
-    store->plan({set, "position", "m", axes[dim - 1], {n_points, hsize_t(dim)}, x});
+    store->plan({set, "position", "m", axes, {n_points, hsize_t(dim)}, x});
     store->plan({set, "time", "s", "", {this->n_rows}, {}, std::numeric_limits<double>::quiet_NaN()});
     const auto plan = [&](const std::string &name, const std::string &unit, const hsize_t n_components,
                           const std::string &components) {
       store->plan({set, name, unit, components, {this->n_rows, n_points, n_components}, {}});
     };
     if (quantities.displacement)
-      plan("displacement", "m", dim, axes[dim - 1]);
+      plan("displacement", "m", dim, axes);
     if (quantities.velocity)
-      plan("velocity", "m/s", dim, axes[dim - 1]);
+      plan("velocity", "m/s", dim, axes);
     if (quantities.stress)
-      plan("stress", "Pa", 6, "xx,yy,zz,xy,xz,yz");
+      plan("stress", "Pa", n_stress, stresses);
   }
 
   void add(const ReceiverRow<dim> &row) override
@@ -278,7 +282,7 @@ public:
           displacement.push_back(row.displacement[point][d]);
         for (unsigned int d = 0; d < dim && quantities.velocity; ++d)
           velocity.push_back(row.velocity[point][d]);
-        for (unsigned int k = 0; k < 6 && quantities.stress; ++k)
+        for (unsigned int k = 0; k < n_stress && quantities.stress; ++k)
           stress.push_back(row.stress[point].access_raw_entry(k));
       }
   }
@@ -286,6 +290,8 @@ public:
   void flush() override { agree_on_output(write(), store->communicator); }
 
 private:
+  static constexpr unsigned int n_stress = n_stress_components(dim);
+
   std::string write()
   {
     const hsize_t n = time.size();
@@ -301,7 +307,7 @@ private:
     };
     write_own("displacement", displacement, dim);
     write_own("velocity", velocity, dim);
-    write_own("stress", stress, 6);
+    write_own("stress", stress, n_stress);
     time.clear();
     n_written += n;
     return problem;
@@ -320,12 +326,20 @@ private:
 template <int dim>
 std::unique_ptr<ReceiverFile<dim>> make_receiver_group(std::shared_ptr<ReceiverStore> store, const std::string &set,
                                                        const std::vector<Point<dim>> &positions,
-                                                       const ReceiverQuantities &quantities, const std::size_t n_rows)
+                                                       const ReceiverQuantities &quantities, const Symmetry symmetry,
+                                                       const std::size_t n_rows)
 {
-  return std::make_unique<ReceiverGroup<dim>>(std::move(store), set, positions, quantities, n_rows);
+  return std::make_unique<ReceiverGroup<dim>>(std::move(store), set, positions, quantities, symmetry, n_rows);
 }
 
-template std::unique_ptr<ReceiverFile<3>> make_receiver_group<3>(std::shared_ptr<ReceiverStore>, const std::string &,
-                                                                 const std::vector<Point<3>> &,
-                                                                 const ReceiverQuantities &, std::size_t);
+#define ARENITE_INSTANTIATE(dim)                                                                             \
+  template std::unique_ptr<ReceiverFile<dim>> make_receiver_group<dim>(std::shared_ptr<ReceiverStore>,       \
+                                                                       const std::string &,                  \
+                                                                       const std::vector<Point<dim>> &,      \
+                                                                       const ReceiverQuantities &, Symmetry, \
+                                                                       std::size_t);
+ARENITE_INSTANTIATE(1)
+ARENITE_INSTANTIATE(2)
+ARENITE_INSTANTIATE(3)
+#undef ARENITE_INSTANTIATE
 } // namespace Arenite

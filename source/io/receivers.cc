@@ -52,7 +52,7 @@ void Receivers<dim>::finalize(const Parameters &parameters)
     return std::find(quantity_names.begin(), quantity_names.end(), quantity) != quantity_names.end();
   };
   quantities = {wanted("displacement"), wanted("velocity"), wanted("stress")};
-  n_values   = dim + (quantities.stress ? 6 : 0);
+  n_values   = dim + (quantities.stress ? n_stress_components(dim) : 0);
 }
 
 template <int dim>
@@ -87,9 +87,11 @@ void Receivers<dim>::open(const std::string &directory_, const double start_time
   const std::string stem = directory + "/receivers-" + name;
   if (points.in_table())
     {
-      file             = make_receiver_table<dim>(stem + ".csv", points.names, quantities, communicator);
-      const char *axis = "x,y,z";
-      std::string text = "name," + std::string(axis, 2 * dim - 1) + "\n";
+      file = make_receiver_table<dim>(stem + ".csv", points.names, quantities, discretization->symmetry, communicator);
+      std::string text = "name";
+      for (unsigned int d = 0; d < dim; ++d)
+        text += std::string(",") + direction_letters(discretization->symmetry)[d];
+      text += "\n";
       for (unsigned int i = 0; i < points.names.size(); ++i)
         {
           text += points.names[i];
@@ -109,7 +111,8 @@ void Receivers<dim>::open(const std::string &directory_, const double start_time
       if (n_rows > 1e7)
         throw InputError("[Receivers / " + name + "] Interval = " + to_text(interval) +
                          " s gives more than 1e7 rows until the end time. Is it shorter than the step?");
-      file = make_receiver_group<dim>(store, name, location.positions, quantities, std::size_t(n_rows));
+      file = make_receiver_group<dim>(store, name, location.positions, quantities, discretization->symmetry,
+                                      std::size_t(n_rows));
     }
 
   const unsigned int rank        = Utilities::MPI::this_mpi_process(communicator);
@@ -180,9 +183,11 @@ void Receivers<dim>::push(const Kind kind, const VectorType &field, const State<
         values[c] += contact.weight * u[c];
       if (kind != Kind::row || !quantities.stress)
         continue;
-      const SymmetricTensor<2, 3> stress = materials[i].stress(
-        fields->reference_gradient(field, contact.cell, contact.factors) * contact.inverse_jacobian);
-      for (unsigned int k = 0; k < 6; ++k)
+      const Tensor<2, dim> gradient =
+        fields->reference_gradient(field, contact.cell, contact.factors) * contact.inverse_jacobian;
+      const SymmetricTensor<2, 3> stress =
+        materials[i].stress(full_gradient(discretization->symmetry, gradient, u, location.positions[contact.point]));
+      for (unsigned int k = 0; k < n_stress_components(dim); ++k)
         values[dim + k] += contact.weight * stress.access_raw_entry(k);
     }
 }
@@ -242,7 +247,7 @@ void Receivers<dim>::process(const std::vector<double> &sums)
         {
           for (unsigned int c = 0; c < dim; ++c)
             vectors[point][c] = values[c];
-          for (unsigned int k = 0; k < 6 && quantities.stress; ++k)
+          for (unsigned int k = 0; k < n_stress_components(dim) && quantities.stress; ++k)
             row.stress[point].access_raw_entry(k) = values[dim + k];
         }
       if (header.kind == Kind::half_velocity)
@@ -370,6 +375,10 @@ std::map<std::string, double> ReceiverSets<dim>::errors() const
   return result;
 }
 
+template class Receivers<1>;
+template class Receivers<2>;
 template class Receivers<3>;
+template class ReceiverSets<1>;
+template class ReceiverSets<2>;
 template class ReceiverSets<3>;
 } // namespace Arenite

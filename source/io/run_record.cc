@@ -36,6 +36,7 @@ void RunRecord::write(const OutputDirectory &directory) const
       json["ranks"]                 = dealii::Utilities::MPI::n_mpi_processes(directory.communicator);
       json["lanes"]                 = lanes;
       json["dimension"]             = dimension;
+      json["symmetry"]              = symmetry;
       json["element"]               = element;
       json["degree"]                = degree;
       json["symmetry_factor"]       = symmetry_factor;

@@ -51,8 +51,9 @@ void Statistics::declare_parameters(Parameters &parameters)
 void Statistics::finalize(const Parameters &) {}
 
 void Statistics::open(const OutputDirectory &directory, Log &new_log, const double new_start, const double new_end,
-                      const double new_symmetry_factor)
+                      const double new_symmetry_factor, const std::string &per_extent)
 {
+  unit            = " [J" + per_extent + "]";
   log             = &new_log;
   communicator    = directory.communicator;
   active          = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
@@ -73,11 +74,18 @@ void Statistics::open(const OutputDirectory &directory, Log &new_log, const doub
 
 void Statistics::write_header(const EnergyReport &report)
 {
-  file << "t [s],step,dt [s],cells,dofs,kinetic (full body) [J],strain (full body) [J],hourglass (full body) [J]";
+  file << "t [s],step,dt [s],cells,dofs";
+  const auto energy = [&](const std::string &what) { file << ',' << what << " (full body)" << unit; };
+  energy("kinetic");
+  energy("strain");
+  energy("hourglass");
   for (const auto &account : report.work)
-    file << ",work of " << account.first << " (full body) [J]";
-  file << ",initial (full body) [J],step changes (full body) [J],adaptation (full body) [J],imbalance (full body) [J],"
-          "relative energy error\n";
+    energy("work of " + account.first);
+  energy("initial");
+  energy("step changes");
+  energy("adaptation");
+  energy("imbalance");
+  file << ",relative energy error\n";
 }
 
 void Statistics::add(const EnergyReport &report, const StepInfo &info)

@@ -143,15 +143,14 @@ void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretizatio
   const unsigned int     rank         = Utilities::MPI::this_mpi_process(communicator);
   const unsigned int     n_ranks      = Utilities::MPI::n_mpi_processes(communicator);
   const unsigned int     s            = parts(discretization);
-  constexpr unsigned int n_stress     = SymmetricTensor<2, dim>::n_independent_components;
+  constexpr unsigned int n_stress     = n_stress_components(dim);
 
   CellPatches<dim>   out;
-  const auto         scalar = DataComponentInterpretation::component_is_scalar;
-  const auto         vector = DataComponentInterpretation::component_is_part_of_vector;
-  const unsigned int u_row  = out.add("displacement", "m", vector, dim);
-  const unsigned int v_row  = out.add("velocity", "m/s", vector, dim);
-  const unsigned int stress_row =
-    out.add("stress", "Pa", DataComponentInterpretation::component_is_part_of_tensor, dim * dim);
+  const auto         scalar     = DataComponentInterpretation::component_is_scalar;
+  const auto         vector     = DataComponentInterpretation::component_is_part_of_vector;
+  const unsigned int u_row      = out.add("displacement", "m", vector, dim);
+  const unsigned int v_row      = out.add("velocity", "m/s", vector, dim);
+  const unsigned int stress_row = out.add("stress", "Pa", DataComponentInterpretation::component_is_part_of_tensor, 9);
   const unsigned int pressure_row = out.add("pressure", "Pa", scalar, 1);
   const unsigned int mises_row    = out.add("von_mises_stress", "Pa", scalar, 1);
   const unsigned int cell_row     = out.add("material", "", scalar, 1);
@@ -207,12 +206,12 @@ void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretizatio
         }
       for (unsigned int q = 0; q < n_points; ++q)
         {
-          SymmetricTensor<2, dim> stress;
+          SymmetricTensor<2, 3> stress;
           for (unsigned int k = 0; k < n_stress; ++k)
             stress.access_raw_entry(k) = stress_values[k][q];
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int j = 0; j < dim; ++j)
-              patch.data(stress_row + dim * i + j, q) = static_cast<float>(stress[i][j]);
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              patch.data(stress_row + 3 * i + j, q) = static_cast<float>(stress[i][j]);
           patch.data(pressure_row, q) = static_cast<float>(pressure(stress));
           patch.data(mises_row, q)    = static_cast<float>(von_mises_stress(stress));
 
@@ -280,5 +279,7 @@ void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretizatio
     next_time = interval * (std::floor(time / interval + 0.5) + 1.);
 }
 
+template class VTUOutput<1>;
+template class VTUOutput<2>;
 template class VTUOutput<3>;
 } // namespace Arenite

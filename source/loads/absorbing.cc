@@ -180,6 +180,10 @@ void Sponge<dim>::reinit(const Discretization<dim> &discretization, const NodalM
     }
 }
 
+template class AbsorbingBoundary<1>;
+template class AbsorbingBoundary<2>;
 template class AbsorbingBoundary<3>;
+template class Sponge<1>;
+template class Sponge<2>;
 template class Sponge<3>;
 } // namespace Arenite

@@ -43,5 +43,7 @@ double BodyForce<dim>::power(const VectorType &half_velocity) const
   return sum;
 }
 
+template class BodyForce<1>;
+template class BodyForce<2>;
 template class BodyForce<3>;
 } // namespace Arenite

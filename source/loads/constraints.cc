@@ -109,14 +109,24 @@ void Constraints<dim>::reinit(const Discretization<dim> &discretization)
     free[node] = free_directions(normals);
   for (const auto &[node, normals] : boundary_normals(discretization, fixed))
     free[node] = SymmetricTensor<2, dim>();
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    if (discretization.on_axis(node)) // no radial motion, whatever the boundaries are called
+      {
+        auto &P = free.emplace(node, unit_symmetric_tensor<dim>()).first->second;
+        for (unsigned int c = 0; c < dim; ++c)
+          P[0][c] = 0.;
+      }
 
   prescribed_nodes.clear();
   for (unsigned int b = 0; b < prescribed.size(); ++b)
     for (const auto &[node, normals] : boundary_normals(discretization, prescribed[b]->ids))
-      prescribed_nodes.push_back({node, b, Tensor<1, dim>()});
+      if (dim > 1 || !discretization.on_axis(node))
+        prescribed_nodes.push_back({node, b, Tensor<1, dim>()});
   exact_nodes.clear();
   for (const auto &[node, normals] : boundary_normals(discretization, exact))
     {
+      if (dim == 1 && discretization.on_axis(node)) // at rest, and perhaps without mass
+        continue;
       free.erase(node);
       exact_nodes.push_back({{node, 0, Tensor<1, dim>()}, discretization.position(node)});
     }
@@ -204,5 +214,7 @@ void Constraints<dim>::project(DampingBlocks<dim> &blocks) const
     }
 }
 
+template class Constraints<1>;
+template class Constraints<2>;
 template class Constraints<3>;
 } // namespace Arenite

@@ -37,5 +37,7 @@ void HistoryChoice::declare_parameters(Parameters &parameters, const std::string
 
 void HistoryChoice::finalize() { history->finalize(); }
 
+template const Registry<Load<1>> &loads<1>();
+template const Registry<Load<2>> &loads<2>();
 template const Registry<Load<3>> &loads<3>();
 } // namespace Arenite

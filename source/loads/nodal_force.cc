@@ -104,7 +104,13 @@ std::string Gravity<dim>::description() const
   return text.str();
 }
 
+template class Pressure<1>;
+template class Pressure<2>;
 template class Pressure<3>;
+template class Gravity<1>;
+template class Gravity<2>;
 template class Gravity<3>;
+template NodalForces<1> assemble(const Discretization<1> &, VectorType &);
+template NodalForces<2> assemble(const Discretization<2> &, VectorType &);
 template NodalForces<3> assemble(const Discretization<3> &, VectorType &);
 } // namespace Arenite

@@ -259,5 +259,7 @@ double CellFields<dim>::size(const unsigned int cell) const
   return longest / 1.2;
 }
 
+template class CellFields<1>;
+template class CellFields<2>;
 template class CellFields<3>;
 } // namespace Arenite

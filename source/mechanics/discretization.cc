@@ -13,22 +13,26 @@ namespace Arenite
 {
 using namespace dealii;
 
-void HangingNodes::clear()
+void HangingNodes::clear(const bool with_radial)
 {
+  with_radial_weights = with_radial;
   nodes.clear();
   master.clear();
   weight.clear();
+  radial_weight.clear();
   start.assign(1, 0);
   n_local = 0;
 }
 
-void HangingNodes::add(const unsigned int node, const std::vector<std::pair<unsigned int, double>> &masters)
+void HangingNodes::add(const unsigned int node, const std::vector<Master> &masters)
 {
   nodes.push_back(node);
-  for (const auto &[m, w] : masters)
+  for (const Master &m : masters)
     {
-      master.push_back(m);
-      weight.push_back(w);
+      master.push_back(m.node);
+      weight.push_back(m.weight);
+      if (with_radial_weights)
+        radial_weight.push_back(m.radial_weight);
     }
   start.push_back(static_cast<unsigned int>(master.size()));
 }
@@ -40,9 +44,10 @@ bool HangingNodes::depends_on_ghosts(const unsigned int node) const
 }
 
 template <int dim>
-Discretization<dim>::Discretization(Triangulation &triangulation, const unsigned int degree)
+Discretization<dim>::Discretization(Triangulation &triangulation, const unsigned int degree, const Symmetry symmetry)
   : communicator(triangulation.get_communicator())
   , triangulation(triangulation)
+  , symmetry(symmetry)
   , fe(QGaussLobatto<1>(degree + 1))
   , dofs(triangulation)
   , lexicographic(FETools::lexicographic_to_hierarchic_numbering<dim>(degree))
@@ -67,8 +72,11 @@ void Discretization<dim>::distribute_nodes()
   dofs.distribute_dofs(fe);
   IndexSet relevant;
   DoFTools::extract_locally_relevant_dofs(dofs, relevant);
-  AffineConstraints<double> constraints(relevant);
+  AffineConstraints<double> radial(relevant), constraints(relevant);
+  DoFTools::make_hanging_node_constraints(dofs, radial);
   DoFTools::make_hanging_node_constraints(dofs, constraints);
+  add_axis_lines(constraints);
+  radial.close();
   constraints.close();
 
   const unsigned int                   n = nodes_per_cell();
@@ -108,25 +116,45 @@ void Discretization<dim>::distribute_nodes()
     std::make_shared<const Utilities::MPI::Partitioner>(with_components(dofs.locally_owned_dofs(), dim),
                                                         with_components(ghosts, dim), communicator);
 
-  const auto local = [&](const types::global_dof_index i) { return node_partitioner->global_to_local(i); };
   node_table.resize(global_table.size());
-  std::transform(global_table.begin(), global_table.end(), node_table.begin(), local);
+  std::transform(global_table.begin(), global_table.end(), node_table.begin(),
+                 [&](const types::global_dof_index i) { return node_partitioner->global_to_local(i); });
+  make_hanging_nodes(hanging_lines, constraints, radial);
+  positions = new_vector();
+}
 
-  hanging.clear();
-  std::sort(hanging_lines.begin(), hanging_lines.end(),
-            [&](const auto a, const auto b) { return local(a) < local(b); });
-  std::vector<std::pair<unsigned int, double>> masters;
+/// The lines of the explicit list: nodes that @p constraints knows, and what @p radial says of the first component.
+template <int dim>
+void Discretization<dim>::make_hanging_nodes(const std::vector<types::global_dof_index> &unsorted_lines,
+                                             const AffineConstraints<double>            &constraints,
+                                             const AffineConstraints<double>            &radial)
+{
+  const auto local = [&](const types::global_dof_index i) { return node_partitioner->global_to_local(i); };
+  auto       lines = unsorted_lines;
+  std::sort(lines.begin(), lines.end(), [&](const auto a, const auto b) { return local(a) < local(b); });
+  const bool has_axis = n_hoop_directions(symmetry) > 0 && dim == 2 && degree() > 1;
+  hanging.clear(has_axis);
+  std::vector<HangingNodes::Master> masters;
   for (const bool with_ghosts : {false, true})
     {
-      for (const auto i : hanging_lines)
+      for (const auto i : lines)
         {
           masters.clear();
           // a ghost that hangs is overwritten by the exchange, so it counts as dependent whatever its masters are
           bool has_ghost = local(i) >= n_owned_nodes();
-          for (const auto &entry : *constraints.get_constraint_entries(i))
+          for (const auto &[master, weight] : *constraints.get_constraint_entries(i))
             {
-              masters.emplace_back(local(entry.first), entry.second);
-              has_ghost = has_ghost || masters.back().first >= n_owned_nodes();
+              double radial_weight = weight;
+              if (has_axis) // masters of the radial component are some of these, and the axis, where it vanishes
+                {
+                  radial_weight = 0.;
+                  if (const auto *entries = radial.get_constraint_entries(i))
+                    for (const auto &entry : *entries)
+                      if (entry.first == master)
+                        radial_weight = entry.second;
+                }
+              masters.push_back({local(master), weight, radial_weight});
+              has_ghost = has_ghost || masters.back().node >= n_owned_nodes();
             }
           if (has_ghost == with_ghosts)
             hanging.add(local(i), masters);
@@ -134,7 +162,61 @@ void Discretization<dim>::distribute_nodes()
       if (!with_ghosts)
         hanging.n_local = hanging.size();
     }
-  positions = new_vector();
+}
+
+/// For degree p >= 2 in a body of revolution: the lines of nodes that begin on the axis. Of the cells that share such a line the
+/// coarsest counts: its nodes do not hang there.
+template <int dim>
+void Discretization<dim>::add_axis_lines(AffineConstraints<double> &constraints) const
+{
+  if constexpr (dim == 2)
+    if (symmetry == Symmetry::axisymmetric && degree() > 1)
+      {
+        const std::vector<double>            weights = even_line_weights(degree());
+        const unsigned int                   N       = degree() + 1;
+        std::vector<types::global_dof_index> indices(nodes_per_cell());
+        for (unsigned int level = 0; level < triangulation.n_global_levels(); ++level)
+          for (const auto &cell : dofs.active_cell_iterators())
+            if (static_cast<unsigned int>(cell->level()) == level && !cell->is_artificial())
+              for (unsigned int f = 0; f < 4; ++f)
+                {
+                  const auto  &face = cell->face(f);
+                  const double tiny = 1e-10 * face->diameter();
+                  if (!face->at_boundary() || std::abs(face->vertex(0)[0]) > tiny ||
+                      std::abs(face->vertex(1)[0]) > tiny)
+                    continue;
+                  cell->get_dof_indices(indices);
+                  const int along = f / 2 == 0 ? N : 1, across = (f / 2 == 0 ? 1 : N) * (f % 2 == 0 ? 1 : -1);
+                  const int corner = f % 2 == 0 ? 0 : (N - 1) * (f / 2 == 0 ? 1 : N);
+                  for (unsigned int j = 0; j < N; ++j)
+                    {
+                      const int  node  = corner + j * along;
+                      const auto index = indices[lexicographic[node]];
+                      if (constraints.is_constrained(index))
+                        continue;
+                      constraints.add_line(index);
+                      for (unsigned int m = 1; m < N; ++m)
+                        constraints.add_entry(index, indices[lexicographic[node + int(m) * across]], weights[m]);
+                    }
+                }
+      }
+  (void)constraints;
+}
+
+template <int dim>
+void Discretization<dim>::complete_positions()
+{
+  if (n_hoop_directions(symmetry) > 0)
+    {
+      double largest = 0.;
+      for (unsigned int node = 0; node < n_owned_nodes(); ++node)
+        largest = std::max(largest, std::abs(positions.local_element(dim * node)));
+      largest = Utilities::MPI::max(largest, communicator);
+      for (unsigned int node = 0; node < n_owned_nodes(); ++node)
+        if (double &r = positions.local_element(dim * node); std::abs(r) < 1e-12 * largest)
+          r = 0.;
+    }
+  make_consistent(*this, positions);
 }
 
 template <int dim>
@@ -155,7 +237,7 @@ void Discretization<dim>::positions_from_manifolds()
           for (unsigned int c = 0; c < dim; ++c)
             positions.local_element(dim * node + c) = values.quadrature_point(i)[c];
     }
-  make_consistent(*this, positions);
+  complete_positions();
 }
 
 template <int dim>
@@ -167,7 +249,7 @@ void Discretization<dim>::transform(const std::function<Point<dim>(const Point<d
       for (unsigned int c = 0; c < dim; ++c)
         positions.local_element(dim * node + c) = x[c];
     }
-  make_consistent(*this, positions);
+  complete_positions();
 }
 
 template <int dim>
@@ -209,7 +291,12 @@ void zero_at_hanging_nodes(const Discretization<dim> &discretization, VectorType
         vector.local_element(n_components * node + c) = 0.;
 }
 
-template class Discretization<3>;
-template void make_consistent(const Discretization<3> &, VectorType &);
-template void zero_at_hanging_nodes(const Discretization<3> &, VectorType &);
+#define ARENITE_INSTANTIATE(dim)                                            \
+  template class Discretization<dim>;                                       \
+  template void make_consistent(const Discretization<dim> &, VectorType &); \
+  template void zero_at_hanging_nodes(const Discretization<dim> &, VectorType &);
+ARENITE_INSTANTIATE(1)
+ARENITE_INSTANTIATE(2)
+ARENITE_INSTANTIATE(3)
+#undef ARENITE_INSTANTIATE
 } // namespace Arenite

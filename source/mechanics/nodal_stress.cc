@@ -48,17 +48,9 @@ Tensor<2, dim> reference_gradient(const FullMatrix<double> &derivative, const st
 }
 } // namespace
 
-template <int dim>
-double pressure(const SymmetricTensor<2, dim> &stress)
-{
-  return -trace(stress) / dim;
-}
+double pressure(const SymmetricTensor<2, 3> &stress) { return -trace(stress) / 3.; }
 
-template <int dim>
-double von_mises_stress(const SymmetricTensor<2, dim> &stress)
-{
-  return std::sqrt(1.5) * deviator(stress).norm();
-}
+double von_mises_stress(const SymmetricTensor<2, 3> &stress) { return std::sqrt(1.5) * deviator(stress).norm(); }
 
 template <int dim>
 NodalStress<dim> nodal_stress(const Discretization<dim> &discretization, const VectorType &displacement,
@@ -86,10 +78,11 @@ NodalStress<dim> nodal_stress(const Discretization<dim> &discretization, const V
       for (unsigned int n = 0; n < n_nodes; ++n)
         {
           const Tensor<2, dim>        jacobian = reference_gradient(derivative, x, n);
+          const Tensor<2, dim>        gradient = reference_gradient(derivative, u, n) * invert(jacobian);
           const SymmetricTensor<2, 3> stress =
-            material.stress(Tensor<2, dim>(reference_gradient(derivative, u, n) * invert(jacobian)));
+            material.stress(full_gradient(discretization.symmetry, gradient, u[n], Point<dim>(x[n])));
           for (unsigned int k = 0; k < sums.size(); ++k)
-            sums[k].local_element(nodes[n]) += stress[SymmetricTensor<2, dim>::unrolled_to_component_indices(k)];
+            sums[k].local_element(nodes[n]) += stress.access_raw_entry(k);
           count.local_element(nodes[n]) += 1.;
         }
     }
@@ -102,10 +95,14 @@ NodalStress<dim> nodal_stress(const Discretization<dim> &discretization, const V
         component.local_element(node) /= count.local_element(node);
       make_consistent(discretization, component);
     }
+  if constexpr (dim == 2)
+    for (unsigned int node = 0; node < discretization.n_local_nodes(); ++node)
+      if (discretization.on_axis(node))
+        sums[3].local_element(node) = 0.; // the shear stress rz is odd there
   return sums;
 }
 
-template double         pressure(const SymmetricTensor<2, 3> &);
-template double         von_mises_stress(const SymmetricTensor<2, 3> &);
+template NodalStress<1> nodal_stress(const Discretization<1> &, const VectorType &, const std::vector<LinearElastic> &);
+template NodalStress<2> nodal_stress(const Discretization<2> &, const VectorType &, const std::vector<LinearElastic> &);
 template NodalStress<3> nodal_stress(const Discretization<3> &, const VectorType &, const std::vector<LinearElastic> &);
 } // namespace Arenite

@@ -64,6 +64,8 @@ public:
     for (unsigned int d = 0; d < dim; ++d)
       if (upper[d] <= lower[d])
         parameters.refuse(path + "/Upper corner", "every coordinate must be larger than that of 'Lower corner'");
+    if (n_hoop_directions(this->symmetry) > 0 && lower[0] < 0.)
+      parameters.refuse(path + "/Lower corner", "the first coordinate is the radius and must not be negative");
     if (cells.size() != dim)
       parameters.refuse(path + "/Cells", "needs " + std::to_string(dim) + " numbers");
     for (const std::string &n : cells)
@@ -151,10 +153,14 @@ Registry<Geometry<dim>> make_geometries()
   registry.template add<SphericalShell<dim>>(
     "spherical shell", "Octant, half or full shell around a spherical cavity, graded towards it.");
   registry.template add<Ball<dim>>("ball", "Octant or full solid ball.");
-  registry.template add<Box<dim>>("box", "Axis-parallel box.");
-  registry.template add<Bar>("bar", "Prismatic bar along x.");
-  registry.template add<Cylinder>("cylinder", "Solid circular cylinder along x.");
-  registry.template add<ImportedMesh<dim>>("file", "Hexahedra from a Gmsh file, audited.");
+  registry.template add<Box<dim>>("box", "Axis-parallel box, rectangle or segment.");
+  if constexpr (dim == 3)
+    {
+      registry.template add<Bar>("bar", "Prismatic bar along x; three dimensions only.");
+      registry.template add<Cylinder>("cylinder", "Solid circular cylinder along x; three dimensions only.");
+    }
+  if constexpr (dim > 1)
+    registry.template add<ImportedMesh<dim>>("file", "Hexahedra (quadrilaterals) from a Gmsh file, audited.");
   return registry;
 }
 } // namespace
@@ -170,16 +176,18 @@ template <int dim>
 MeshChoice<dim>::MeshChoice(const Parameters &parameters)
   : type(parameters.peek_choice("Mesh/Type", "spherical shell", geometries<dim>().names()))
   , geometry(geometries<dim>().make(type))
-{}
+{
+  geometry->symmetry = DimensionChoice(parameters).symmetry;
+}
 
 template <int dim>
 void MeshChoice<dim>::declare_parameters(Parameters &parameters)
 {
   const auto section = parameters.section("Mesh");
   parameters.add_choice("Type", type, geometries<dim>().names(), "Geometry of the body; its own entries follow.");
-  parameters.add_integer(
-    "Refinement", refinement, 0, 12,
-    "Global refinements of the coarse mesh: each halves the cells and costs 16 times the work in 3-D.");
+  parameters.add_integer("Refinement", refinement, 0, 12,
+                         "Global refinements of the coarse mesh: each halves the cells and costs 16 times the work in "
+                         "3-D, 8 in 2-D, 4 in 1-D.");
   parameters.add_flag(
     "Refine geometry", refine_geometry,
     "Put nodes of adaptively refined cells on the exact surfaces instead of keeping the shape of their parents. "
@@ -193,7 +201,13 @@ void MeshChoice<dim>::finalize(const Parameters &parameters)
   geometry->finalize(parameters);
 }
 
+template class Geometry<1>;
+template class Geometry<2>;
 template class Geometry<3>;
+template struct MeshChoice<1>;
+template struct MeshChoice<2>;
 template struct MeshChoice<3>;
+template const Registry<Geometry<1>> &geometries<1>();
+template const Registry<Geometry<2>> &geometries<2>();
 template const Registry<Geometry<3>> &geometries<3>();
 } // namespace Arenite

@@ -107,6 +107,10 @@ void ImportedMesh<dim>::finalize(const Parameters &parameters)
       if (!problem.empty())
         parameters.refuse(entry, problem);
     }
+  if (n_hoop_directions(this->symmetry) > 0)
+    for (const Point<dim> &x : mesh.get_vertices())
+      if (x[0] < 0.)
+        parameters.refuse(entry, "has a node at " + text(x) + "; the first coordinate is the radius");
   const std::string problem = unglued_vertices(mesh);
   if (!problem.empty())
     parameters.refuse(entry, problem);
@@ -150,5 +154,6 @@ void ImportedMesh<dim>::create(Triangulation<dim> &triangulation) const
   triangulation.copy_triangulation(mesh);
 }
 
+template class ImportedMesh<2>;
 template class ImportedMesh<3>;
 } // namespace Arenite

@@ -20,9 +20,10 @@ enum SphereBoundary : types::boundary_id
   symmetry_x = 2 ///< followed by y and z
 };
 
-/// Boundary ids of a body between spheres around the origin and coordinate planes through it.
+/// Boundary ids of a body between spheres around the origin and coordinate planes through it. Coordinate d of the mesh belongs to
+/// symmetry plane x, y or z of the body: the second of a meridian plane to z.
 template <int dim>
-void name_spheres_and_planes(Triangulation<dim> &triangulation, const double inner_radius)
+void name_spheres_and_planes(Triangulation<dim> &triangulation, const double inner_radius, const Symmetry symmetry)
 {
   for (const auto &cell : triangulation.active_cell_iterators())
     for (const auto &face : cell->face_iterators())
@@ -35,10 +36,47 @@ void name_spheres_and_planes(Triangulation<dim> &triangulation, const double inn
               for (unsigned int v = 0; v < face->n_vertices(); ++v)
                 on_plane = on_plane && std::abs(face->vertex(v)[d]) < 1e-8 * cell->diameter();
               if (on_plane)
-                id = symmetry_x + d;
+                id = symmetry_x + (symmetry == Symmetry::axisymmetric && d == 1 ? 2 : d);
             }
           face->set_boundary_id(id);
         }
+}
+
+/// Parts of the full body that the sector leaves out, for an axis- or point-symmetric section as for the body itself.
+double copies(const std::string &sector, const Symmetry symmetry)
+{
+  switch (symmetry)
+    {
+    case Symmetry::none:
+      return sector == "octant" ? 8. : (sector == "half" ? 2. : 1.);
+    case Symmetry::plane_strain:
+      return sector == "octant" ? 4. : (sector == "half" ? 2. : 1.);
+    case Symmetry::axisymmetric:
+      return sector == "octant" ? 2. : 1.;
+    default:
+      return 1.;
+    }
+}
+
+/// One layer of cells of a sector of a shell; in the meridian plane the half ring is all.
+template <int dim>
+void make_shell(Triangulation<dim> &layer, const std::string &sector, const Symmetry symmetry,
+                const double inner_radius, const double outer_radius)
+{
+  if constexpr (dim == 1)
+    {
+      GridGenerator::hyper_cube(layer, inner_radius, outer_radius);
+      return (void)sector, (void)symmetry;
+    }
+  else
+    {
+      if (sector == "octant")
+        GridGenerator::quarter_hyper_shell(layer, Point<dim>(), inner_radius, outer_radius, dim == 3 ? 3 : 2);
+      else if (sector == "half" || symmetry == Symmetry::axisymmetric)
+        GridGenerator::half_hyper_shell(layer, Point<dim>(), inner_radius, outer_radius, dim == 3 ? 0 : 4);
+      else
+        GridGenerator::hyper_shell(layer, Point<dim>(), inner_radius, outer_radius, dim == 3 ? 6 : 8);
+    }
 }
 
 /// Stack copies of a one-layer shell, each scaled to its own radii.
@@ -84,9 +122,10 @@ template <int dim>
 void SphericalShell<dim>::declare_parameters(Parameters &parameters)
 {
   path = parameters.current_path();
-  parameters.add_choice(
-    "Sector", sector, {"octant", "half", "full"},
-    "Part of the sphere that is modelled. The octant x, y, z > 0 gives the same answer for an eighth of the cost.");
+  parameters.add_choice("Sector", sector, {"octant", "half", "full"},
+                        "Part of the sphere that is modelled. The octant x, y, z > 0 gives the same answer for an "
+                        "eighth of the cost. In fewer "
+                        "dimensions the section of that part.");
   parameters.add_quantity("Inner radius", inner_radius, "m", positive, "Radius of the cavity.");
   parameters.add_quantity("Outer radius", outer_radius, "m", positive, "Radius of the boundary 'outer'.");
   parameters.add_integer("Radial layers", layers, 0, 1000,
@@ -105,21 +144,16 @@ void SphericalShell<dim>::finalize(const Parameters &parameters)
 template <int dim>
 double SphericalShell<dim>::symmetry_factor() const
 {
-  return sector == "octant" ? 8. : (sector == "half" ? 2. : 1.);
+  return copies(sector, this->symmetry);
 }
 
 template <int dim>
 void SphericalShell<dim>::create(Triangulation<dim> &triangulation) const
 {
   Triangulation<dim> layer;
-  if (sector == "octant")
-    GridGenerator::quarter_hyper_shell(layer, Point<dim>(), inner_radius, outer_radius, 3);
-  else if (sector == "half")
-    GridGenerator::half_hyper_shell(layer, Point<dim>(), inner_radius, outer_radius);
-  else
-    GridGenerator::hyper_shell(layer, Point<dim>(), inner_radius, outer_radius, 6);
-  // width over radius of a coarse cell: 45 degrees in the octant, 90 degrees in the other sectors
-  const double opening = numbers::PI / (sector == "octant" ? 4. : 2.);
+  make_shell(layer, sector, this->symmetry, inner_radius, outer_radius);
+  // width over radius of a coarse cell: 45 degrees in the octant and in fewer dimensions, 90 degrees in the other sectors
+  const double opening = numbers::PI / (sector == "octant" || dim < 3 ? 4. : 2.);
   const auto   automatic =
     static_cast<unsigned int>(std::max(1., std::round(std::log(outer_radius / inner_radius) / std::log(1. + opening))));
   const unsigned int  n = layers > 0 ? layers : automatic;
@@ -129,9 +163,12 @@ void SphericalShell<dim>::create(Triangulation<dim> &triangulation) const
                     : spacing == "uniform" ? inner_radius + (outer_radius - inner_radius) * k / n
                                            : inner_radius * std::pow(outer_radius / inner_radius, double(k) / n));
   stack_layers(layer, radii, triangulation);
-  name_spheres_and_planes(triangulation, inner_radius);
-  triangulation.set_all_manifold_ids(0);
-  triangulation.set_manifold(0, SphericalManifold<dim>());
+  name_spheres_and_planes(triangulation, inner_radius, this->symmetry);
+  if constexpr (dim > 1)
+    {
+      triangulation.set_all_manifold_ids(0);
+      triangulation.set_manifold(0, SphericalManifold<dim>());
+    }
 }
 
 template <int dim>
@@ -148,23 +185,40 @@ void Ball<dim>::declare_parameters(Parameters &parameters)
 }
 
 template <int dim>
+double Ball<dim>::symmetry_factor() const
+{
+  return copies(sector, this->symmetry);
+}
+
+template <int dim>
 void Ball<dim>::create(Triangulation<dim> &triangulation) const
 {
-  if (sector == "octant")
-    GridGenerator::quarter_hyper_ball(triangulation, Point<dim>(), radius);
+  if constexpr (dim == 1)
+    {
+      GridGenerator::hyper_cube(triangulation, 0., radius);
+      triangulation.begin_active()->face(0)->set_boundary_id(symmetry_x);
+      triangulation.begin_active()->face(1)->set_boundary_id(outer);
+    }
   else
-    GridGenerator::hyper_ball(triangulation, Point<dim>(), radius);
-  name_spheres_and_planes(triangulation, 0.);
-  triangulation.reset_all_manifolds();
-  triangulation.set_all_manifold_ids(1);
-  for (const auto &cell : triangulation.active_cell_iterators())
-    for (const auto &face : cell->face_iterators())
-      if (face->at_boundary() && face->boundary_id() == outer)
-        face->set_all_manifold_ids(0);
-  triangulation.set_manifold(0, SphericalManifold<dim>());
-  TransfiniteInterpolationManifold<dim> blending;
-  blending.initialize(triangulation);
-  triangulation.set_manifold(1, blending);
+    {
+      if (sector == "octant")
+        GridGenerator::quarter_hyper_ball(triangulation, Point<dim>(), radius);
+      else if (this->symmetry == Symmetry::axisymmetric)
+        GridGenerator::half_hyper_ball(triangulation, Point<dim>(), radius);
+      else
+        GridGenerator::hyper_ball(triangulation, Point<dim>(), radius);
+      name_spheres_and_planes(triangulation, 0., this->symmetry);
+      triangulation.reset_all_manifolds();
+      triangulation.set_all_manifold_ids(1);
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary() && face->boundary_id() == outer)
+            face->set_all_manifold_ids(0);
+      triangulation.set_manifold(0, SphericalManifold<dim>());
+      TransfiniteInterpolationManifold<dim> blending;
+      blending.initialize(triangulation);
+      triangulation.set_manifold(1, blending);
+    }
 }
 
 Cylinder::Cylinder() { names = {"lateral", "left end", "right end"}; }
@@ -181,6 +235,10 @@ void Cylinder::create(Triangulation<3> &triangulation) const
   GridGenerator::subdivided_cylinder(triangulation, cells_along, radius, 0.5 * length);
 }
 
+template class SphericalShell<1>;
+template class SphericalShell<2>;
 template class SphericalShell<3>;
+template class Ball<1>;
+template class Ball<2>;
 template class Ball<3>;
 } // namespace Arenite

@@ -16,14 +16,13 @@ using namespace dealii;
 namespace
 {
 /// One complete run of a scene.
-RunRecord run_scene(const RunOptions &options, const std::vector<std::string> &overrides, const std::string &output,
-                    Log &log)
+template <int dim>
+RunRecord run_scene(Parameters &parameters, const RunOptions &options, const std::vector<std::string> &overrides,
+                    const OutputDirectory &directory, Log &log)
 {
-  const MPI_Comm        communicator = MPI_COMM_WORLD;
-  const OutputDirectory directory(output, options.scenes.front(), options.overwrite, communicator);
-  Parameters            parameters = Parameters::from_files(options.scenes, overrides);
-  Scene<3>              scene(parameters);
-  Simulation<3>         simulation(scene, log, communicator);
+  const MPI_Comm  communicator = MPI_COMM_WORLD;
+  Scene<dim>      scene(parameters);
+  Simulation<dim> simulation(scene, log, communicator);
   if (!scene.title.empty())
     log.line(scene.title);
   simulation.set_up();
@@ -48,6 +47,16 @@ RunRecord run_scene(const RunOptions &options, const std::vector<std::string> &o
   return record;
 }
 
+RunRecord run_scene(const RunOptions &options, const std::vector<std::string> &overrides, const std::string &output,
+                    Log &log)
+{
+  const OutputDirectory directory(output, options.scenes.front(), options.overwrite, MPI_COMM_WORLD);
+  Parameters            parameters = Parameters::from_files(options.scenes, overrides);
+  return with_dimension(parameters, [&](const auto dim) {
+    return run_scene<decltype(dim)::value>(parameters, options, overrides, directory, log);
+  });
+}
+
 /// `Mesh / Refinement` as the scene has it, before the objects that check it exist.
 unsigned int first_refinement(const Parameters &parameters)
 {
@@ -67,14 +76,16 @@ int run(const RunOptions &options)
 
 int check(const RunOptions &options)
 {
-  Log           log(MPI_COMM_WORLD);
-  Parameters    parameters = Parameters::from_files(options.scenes, options.overrides);
-  Scene<3>      scene(parameters);
-  Simulation<3> simulation(scene, log, MPI_COMM_WORLD);
-  if (!scene.title.empty())
-    log.line(scene.title);
-  simulation.set_up();
-  simulation.describe_cost();
+  Log        log(MPI_COMM_WORLD);
+  Parameters parameters = Parameters::from_files(options.scenes, options.overrides);
+  with_dimension(parameters, [&](const auto dim) {
+    Scene<decltype(dim)::value>      scene(parameters);
+    Simulation<decltype(dim)::value> simulation(scene, log, MPI_COMM_WORLD);
+    if (!scene.title.empty())
+      log.line(scene.title);
+    simulation.set_up();
+    simulation.describe_cost();
+  });
   return 0;
 }
 
@@ -87,7 +98,7 @@ int print_parameters(const RunOptions &options)
   if (!options.scenes.empty())
     {
       Parameters parameters = Parameters::from_files(options.scenes, options.overrides);
-      Scene<3>   scene(parameters);
+      with_dimension(parameters, [&](const auto dim) { Scene<decltype(dim)::value> scene(parameters); });
       print(options.markdown ? parameters.manual() : parameters.echo());
       return 0;
     }

@@ -9,7 +9,8 @@ namespace Arenite
 {
 template <int dim>
 Scene<dim>::Scene(Parameters &parameters)
-  : mesh(parameters)
+  : symmetry(DimensionChoice(parameters).symmetry)
+  , mesh(parameters)
 {
   declare_parameters(parameters);
   parameters.parse();
@@ -20,8 +21,10 @@ template <int dim>
 void Scene<dim>::declare_parameters(Parameters &parameters)
 {
   parameters.add_text("Title", title, "One line for the log and run.json.");
-  parameters.add_choice("Dimension", dimension, {"3"}, "Space dimension of the mesh.");
-  parameters.add_choice("Symmetry", symmetry, {"none"}, "Symmetry that reduces the dimension.");
+  parameters.add_choice("Dimension", dimension, {"1", "2", "3"}, "Space dimension of the mesh.");
+  parameters.add_choice("Symmetry", symmetry_name, symmetry_names(),
+                        "What a mesh of fewer dimensions stands for: in two 'plane strain' or 'axisymmetric' (first "
+                        "coordinate r, second z), in one 'plane wave' (uniaxial strain) or 'spherical' (r).");
   parameters.add_choice("Kinematics", kinematics, {"small strain"}, "Strain measure.");
   parameters.add_quantity("End time", end_time, "s", positive, "The run starts at 0 and ends here.");
 
@@ -106,7 +109,7 @@ void Scene<dim>::finalize(Parameters &parameters)
   for (const auto &load : loads)
     if (const auto *candidate = dynamic_cast<const Pressure<dim> *>(load.get()); candidate && !pressure)
       pressure = candidate->pressure_history().get();
-  exact_solution = solution_choice.make(parameters, blocks.front().material, pressure);
+  exact_solution = solution_choice.make(parameters, blocks.front().material, pressure, symmetry);
   for (const Block &block : blocks)
     if (exact_solution && !(block.material == blocks.front().material))
       parameters.refuse("Verification/Exact solution", "holds for one material, but the blocks '" +
@@ -119,5 +122,7 @@ void Scene<dim>::finalize(Parameters &parameters)
     loads.push_back(std::make_unique<BodyForce<dim>>(exact_solution));
 }
 
+template struct Scene<1>;
+template struct Scene<2>;
 template struct Scene<3>;
 } // namespace Arenite

@@ -18,7 +18,7 @@ Simulation<dim>::Simulation(Scene<dim> &scene, Log &log, const MPI_Comm communic
   , log(log)
   , communicator(communicator)
   , triangulation(communicator)
-  , discretization(triangulation, scene.element.degree)
+  , discretization(triangulation, scene.element.degree, scene.symmetry)
 {}
 
 template <int dim>
@@ -49,7 +49,8 @@ void Simulation<dim>::set_up()
   for (const Block &block : scene.blocks)
     blocks.push_back(
       make_elastic_force<dim>(scene.element, block.material,
-                              scene.blocks.size() == 1 ? numbers::invalid_material_id : block.material_id));
+                              scene.blocks.size() == 1 ? numbers::invalid_material_id : block.material_id,
+                              scene.symmetry));
   dynamics = std::make_unique<Dynamics<dim>>(discretization, std::move(blocks), std::move(scene.loads),
                                              scene.constraints, material_of_block());
   dynamics->reinit(state);
@@ -115,8 +116,8 @@ void Simulation<dim>::describe() const
 {
   const unsigned int ranks = Utilities::MPI::n_mpi_processes(communicator);
   std::ostringstream text;
-  text << "Mesh       " << scene.mesh.type << ", " << triangulation.n_global_active_cells() << " cells, refinement "
-       << scene.mesh.refinement;
+  text << "Mesh       " << (dim < 3 ? name(scene.symmetry) + ", " : "") << scene.mesh.type << ", "
+       << triangulation.n_global_active_cells() << " cells, refinement " << scene.mesh.refinement;
   if (scene.adaptor.active())
     text << " + up to " << scene.adaptor.max_passes();
   text << ", " << ranks << (ranks == 1 ? " process" : " processes") << '\n'
@@ -130,8 +131,8 @@ void Simulation<dim>::describe() const
     }
   for (const auto &load : dynamics->loads)
     text << "Load       " << load->name << ": " << load->description() << '\n';
-  text << "Mass       " << initial_mass * scene.mesh.geometry->symmetry_factor()
-       << " kg of the full body; boundaries: " << join(scene.mesh.geometry->boundary_names()) << '\n';
+  text << "Mass       " << initial_mass * scene.mesh.geometry->symmetry_factor() << " kg" << per_extent(scene.symmetry)
+       << " of the full body; boundaries: " << join(scene.mesh.geometry->boundary_names()) << '\n';
   text << "Step       stable up to " << scene.time_step.limit() << " s (cell at " << scene.time_step.limiting_place()
        << "), about " << std::ceil(scene.end_time / scene.time_step.next(0., scene.end_time)) << " steps of "
        << scene.time_step.next(0., scene.end_time) << " s";
@@ -185,7 +186,8 @@ void Simulation<dim>::run(const OutputDirectory &directory)
 {
   scene.receivers.reinit(discretization, material_of_block());
   scene.receivers.open(directory.path(), 0., scene.end_time, scene.exact_solution.get());
-  scene.statistics.open(directory, log, 0., scene.end_time, scene.mesh.geometry->symmetry_factor());
+  scene.statistics.open(directory, log, 0., scene.end_time, scene.mesh.geometry->symmetry_factor(),
+                        per_extent(scene.symmetry));
   dynamics->balance.set_initial(dynamics->total_energy(state, 0.));
 
   const auto start = Clock::now();
@@ -207,6 +209,8 @@ void Simulation<dim>::run(const OutputDirectory &directory)
   record.values = scene.receivers.norms();
   scene.statistics.finish();
 
+  record.dimension       = dim;
+  record.symmetry        = name(scene.symmetry);
   record.element         = scene.element.type;
   record.degree          = scene.element.degree;
   record.cells           = triangulation.n_global_active_cells();
@@ -374,5 +378,7 @@ void Simulation<dim>::watch(const EnergyReport &report)
   throw PhysicsAlarm(message.str());
 }
 
+template class Simulation<1>;
+template class Simulation<2>;
 template class Simulation<3>;
 } // namespace Arenite

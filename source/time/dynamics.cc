@@ -207,5 +207,7 @@ VectorType Dynamics<dim>::velocity(const State<dim> &state) const
   return result;
 }
 
+template class Dynamics<1>;
+template class Dynamics<2>;
 template class Dynamics<3>;
 } // namespace Arenite

@@ -62,5 +62,7 @@ double NodeDamping<dim>::power(const unsigned int index, const VectorType &half_
   return sum;
 }
 
+template class NodeDamping<1>;
+template class NodeDamping<2>;
 template class NodeDamping<3>;
 } // namespace Arenite

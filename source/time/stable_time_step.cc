@@ -205,6 +205,10 @@ double StableTimeStep<dim>::next(const double time, const double end_time) const
   return left / std::max(1., std::ceil(left / dt * (1. - 1e-12)));
 }
 
+template class StableTimeStep<1>;
+template class StableTimeStep<2>;
 template class StableTimeStep<3>;
+template double largest_eigenvalue(Dynamics<1> &, unsigned int, double, double);
+template double largest_eigenvalue(Dynamics<2> &, unsigned int, double, double);
 template double largest_eigenvalue(Dynamics<3> &, unsigned int, double, double);
 } // namespace Arenite

@@ -163,13 +163,16 @@ dealii::Tensor<1, dim> ManufacturedCube<dim>::body_force(const dealii::Point<dim
          (inertia_and_shear * product(x) * amplitude - (lambda + G) * (product_hessian(x) * amplitude));
 }
 
-ManufacturedShell::ManufacturedShell(const LinearElastic &material, const double inner_radius, const Motion &motion)
+template <int dim>
+ManufacturedShell<dim>::ManufacturedShell(const LinearElastic &material, const double inner_radius,
+                                          const Motion &motion)
   : material(material)
   , inner_radius(inner_radius)
   , motion(motion)
 {}
 
-void ManufacturedShell::declare_parameters(Parameters &parameters)
+template <int dim>
+void ManufacturedShell<dim>::declare_parameters(Parameters &parameters)
 {
   parameters.add_quantity("Breathing", motion.breathing, "m", any_value, "Amplitude U of the radial motion.");
   parameters.add_quantity("Twist", motion.twist, "1", any_value, "Amplitude V of the rotation about the z axis.");
@@ -185,17 +188,24 @@ void ManufacturedShell::declare_parameters(Parameters &parameters)
 
 namespace
 {
-/// e_z x x
-dealii::Tensor<1, 3> rotation_about_z(const dealii::Point<3> &x)
+/// e_z x x; in fewer dimensions none
+template <int dim>
+dealii::Tensor<1, dim> rotation_about_z(const dealii::Point<dim> &x)
 {
-  dealii::Tensor<1, 3> result;
-  result[0] = -x[1];
-  result[1] = x[0];
+  dealii::Tensor<1, dim> result;
+  if constexpr (dim == 3)
+    {
+      result[0] = -x[1];
+      result[1] = x[0];
+    }
+  else
+    (void)x;
   return result;
 }
 } // namespace
 
-dealii::Tensor<1, 3> ManufacturedShell::displacement(const dealii::Point<3> &x, const double t) const
+template <int dim>
+dealii::Tensor<1, dim> ManufacturedShell<dim>::displacement(const dealii::Point<dim> &x, const double t) const
 {
   const double r = x.norm();
   const double B = std::sin(motion.breathing_number * (r - inner_radius)) + 0.5;
@@ -204,7 +214,8 @@ dealii::Tensor<1, 3> ManufacturedShell::displacement(const dealii::Point<3> &x, 
          motion.twist * C * std::sin(motion.twist_frequency * t) * rotation_about_z(x);
 }
 
-dealii::Tensor<1, 3> ManufacturedShell::velocity(const dealii::Point<3> &x, const double t) const
+template <int dim>
+dealii::Tensor<1, dim> ManufacturedShell<dim>::velocity(const dealii::Point<dim> &x, const double t) const
 {
   const double r  = x.norm();
   const double B  = std::sin(motion.breathing_number * (r - inner_radius)) + 0.5;
@@ -214,7 +225,8 @@ dealii::Tensor<1, 3> ManufacturedShell::velocity(const dealii::Point<3> &x, cons
          motion.twist * C * w2 * std::cos(w2 * t) * rotation_about_z(x);
 }
 
-dealii::SymmetricTensor<2, 3> ManufacturedShell::stress(const dealii::Point<3> &x, const double t) const
+template <int dim>
+dealii::SymmetricTensor<2, 3> ManufacturedShell<dim>::stress(const dealii::Point<dim> &x, const double t) const
 {
   const double G = material.shear_modulus, lambda = material.lame_lambda();
   const double r  = x.norm();
@@ -223,15 +235,19 @@ dealii::SymmetricTensor<2, 3> ManufacturedShell::stress(const dealii::Point<3> &
   const double U      = motion.breathing * std::sin(motion.breathing_frequency * t);
   const double radial = U * kr * std::cos(kr * (r - inner_radius));
   const double hoop   = U * (std::sin(kr * (r - inner_radius)) + 0.5) / r;
-  auto         stress = spherical_stress<3>((lambda + 2. * G) * radial + 2. * lambda * hoop,
-                                    lambda * radial + 2. * (lambda + G) * hoop, x / r);
-  // C(r) times a rotation: only the gradient of C strains
-  const double slope    = -motion.twist * std::sin(motion.twist_frequency * t) * kc * std::sin(kc * r);
-  const auto   rotation = rotation_about_z(x);
-  return stress + 2. * G * slope / r * symmetrize(outer_product(rotation, dealii::Tensor<1, 3>(x)));
+  auto         stress = spherical_stress<dim>((lambda + 2. * G) * radial + 2. * lambda * hoop,
+                                      lambda * radial + 2. * (lambda + G) * hoop, x / r);
+  if constexpr (dim == 3)
+    {
+      // C(r) times a rotation: only the gradient of C strains
+      const double slope = -motion.twist * std::sin(motion.twist_frequency * t) * kc * std::sin(kc * r);
+      stress += 2. * G * slope / r * symmetrize(outer_product(rotation_about_z(x), dealii::Tensor<1, 3>(x)));
+    }
+  return stress;
 }
 
-dealii::Tensor<1, 3> ManufacturedShell::body_force(const dealii::Point<3> &x, const double t) const
+template <int dim>
+dealii::Tensor<1, dim> ManufacturedShell<dim>::body_force(const dealii::Point<dim> &x, const double t) const
 {
   const double G = material.shear_modulus, M = material.lame_lambda() + 2. * G, rho = material.density;
   const double r  = x.norm();
@@ -253,4 +269,7 @@ template class ManufacturedPlane<3>;
 template class ManufacturedCube<1>;
 template class ManufacturedCube<2>;
 template class ManufacturedCube<3>;
+template class ManufacturedShell<1>;
+template class ManufacturedShell<2>;
+template class ManufacturedShell<3>;
 } // namespace Arenite

@@ -28,12 +28,28 @@ void SolutionChoice<dim>::declare_parameters(Parameters &parameters)
   parameters.add_integer("Mode", mode, 1, 100, "Number of the mode, from 1.");
 }
 
+/// Whether the motion is one that the symmetry allows: radial around a point, or in the directions of a Cartesian mesh.
+template <int dim>
+bool SolutionChoice<dim>::fits(const Symmetry symmetry) const
+{
+  if (type == "none" || symmetry == Symmetry::none)
+    return true;
+  if (type == "spherical cavity" || type == "breathing mode" || type == "manufactured shell")
+    return n_hoop_directions(symmetry) > 0;
+  if (type == "Lame mode" || type == "shear mode")
+    return symmetry == Symmetry::plane_strain;
+  return n_hoop_directions(symmetry) == 0 && type != "torsion mode";
+}
+
 template <int dim>
 std::shared_ptr<const ExactSolution<dim>> SolutionChoice<dim>::make(const Parameters                  &parameters,
                                                                     const LinearElastic               &material,
-                                                                    std::shared_ptr<const TimeHistory> pressure) const
+                                                                    std::shared_ptr<const TimeHistory> pressure,
+                                                                    const Symmetry                     symmetry) const
 {
   const std::string entry = "Verification/Exact solution";
+  if (!fits(symmetry))
+    parameters.refuse(entry, "is no motion of a scene with 'Symmetry = " + name(symmetry) + "'");
   if ((type == "spherical cavity" || type == "plane wave") && !pressure)
     parameters.refuse(entry, "needs a load of type 'pressure' in the scene");
   if ((type == "spherical cavity" || type == "manufactured shell") && inner_radius == 0.)
@@ -53,10 +69,13 @@ std::shared_ptr<const ExactSolution<dim>> SolutionChoice<dim>::make(const Parame
         parameters.refuse("Verification/Outer radius", "must be larger than 'Inner radius'");
       vibration = std::make_shared<BreathingMode<dim>>(material, inner_radius, outer_radius, mode);
     }
-  else if (type == "Lame mode")
-    vibration = std::make_shared<LameMode<dim>>(material, side, mode);
-  else if (type == "shear mode")
-    vibration = std::make_shared<ShearMode<dim>>(material, side, mode);
+  if constexpr (dim > 1)
+    {
+      if (type == "Lame mode")
+        vibration = std::make_shared<LameMode<dim>>(material, side, mode);
+      else if (type == "shear mode")
+        vibration = std::make_shared<ShearMode<dim>>(material, side, mode);
+    }
   if constexpr (dim == 3)
     if (type == "torsion mode")
       vibration = std::make_shared<TorsionMode>(material, outer_radius, mode);
@@ -76,20 +95,21 @@ std::shared_ptr<const ExactSolution<dim>> SolutionChoice<dim>::make(const Parame
         }
       return std::make_shared<ManufacturedCube<dim>>(material, d, k, frequency, 0.4);
     }
-  if constexpr (dim == 3)
-    if (type == "manufactured shell")
-      {
-        ManufacturedShell::Motion motion;
-        motion.breathing           = amplitude;
-        motion.twist               = amplitude / inner_radius;
-        motion.breathing_number    = 2. / inner_radius;
-        motion.twist_number        = 1.5 / inner_radius;
-        motion.breathing_frequency = frequency;
-        motion.twist_frequency     = 0.8 * frequency;
-        return std::make_shared<ManufacturedShell>(material, inner_radius, motion);
-      }
+  if (type == "manufactured shell")
+    {
+      typename ManufacturedShell<dim>::Motion motion;
+      motion.breathing           = amplitude;
+      motion.twist               = dim == 3 ? amplitude / inner_radius : 0.;
+      motion.breathing_number    = 2. / inner_radius;
+      motion.twist_number        = 1.5 / inner_radius;
+      motion.breathing_frequency = frequency;
+      motion.twist_frequency     = 0.8 * frequency;
+      return std::make_shared<ManufacturedShell<dim>>(material, inner_radius, motion);
+    }
   return nullptr;
 }
 
+template class SolutionChoice<1>;
+template class SolutionChoice<2>;
 template class SolutionChoice<3>;
 } // namespace Arenite

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <arenite/mechanics/elastic_force.h>
+#include <arenite/mesh/parallel_triangulation.h>
 #include <arenite/time/stable_time_step.h>
 
-#include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
@@ -57,60 +57,68 @@ inline std::vector<ElementChoice> all_choices()
 }
 
 /// A mesh with one elastic block, without loads unless a test adds them.
-struct Body
+template <int dim>
+struct BodyOf
 {
-  using Triangulation = parallel::distributed::Triangulation<3>;
+  using Triangulation = ParallelTriangulation<dim>;
 
-  Body(const ElementChoice &choice, const std::function<void(Triangulation &)> &make_mesh,
-       const LinearElastic &law = soil())
+  BodyOf(const ElementChoice &choice, const std::function<void(Triangulation &)> &make_mesh,
+         const LinearElastic &law = soil(), const Symmetry symmetry = cartesian<dim>())
     : choice(choice)
     , law(law)
     , triangulation(MPI_COMM_WORLD)
-    , discretization((make_mesh(triangulation), triangulation), choice.degree)
+    , discretization((make_mesh(triangulation), triangulation), choice.degree, symmetry)
   {
     discretization.distribute_nodes();
     discretization.positions_from_manifolds();
   }
 
-  void assemble(std::vector<std::unique_ptr<Load<3>>> loads = {})
+  void assemble(std::vector<std::unique_ptr<Load<dim>>> loads = {})
   {
-    std::vector<std::unique_ptr<InternalForce<3>>> blocks;
-    blocks.push_back(make_elastic_force<3>(choice, law));
-    dynamics = std::make_unique<Dynamics<3>>(discretization, std::move(blocks), std::move(loads), constraints);
+    std::vector<std::unique_ptr<InternalForce<dim>>> blocks;
+    blocks.push_back(make_elastic_force<dim>(choice, law, numbers::invalid_material_id, discretization.symmetry));
+    dynamics = std::make_unique<Dynamics<dim>>(discretization, std::move(blocks), std::move(loads), constraints);
     dynamics->reinit(state);
   }
 
   /// Owned entries from a function of position.
-  void set(VectorType &vector, const std::function<Tensor<1, 3>(const Point<3> &)> &f) const
+  void set(VectorType &vector, const std::function<Tensor<1, dim>(const Point<dim> &)> &f) const
   {
     for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
       {
-        const Tensor<1, 3> value = f(discretization.position(node));
-        for (unsigned int c = 0; c < 3; ++c)
-          vector.local_element(3 * node + c) = value[c];
+        const Tensor<1, dim> value = f(discretization.position(node));
+        for (unsigned int c = 0; c < dim; ++c)
+          vector.local_element(dim * node + c) = value[c];
       }
   }
 
   /// Random numbers in [-scale, scale] that do not depend on the partition: a function of the node's place.
   void randomize(VectorType &vector, const double scale) const
   {
-    set(vector, [&](const Point<3> &x) {
-      Tensor<1, 3> value;
-      for (unsigned int c = 0; c < 3; ++c)
-        value[c] = scale * std::sin(1e4 * (x[0] + 1.7 * x[1] + 2.3 * x[2]) + 1.1 * c);
+    set(vector, [&](const Point<dim> &x) {
+      double place = x[0];
+      if constexpr (dim == 2)
+        place = x[0] + 1.7 * x[1];
+      else if constexpr (dim == 3)
+        place = x[0] + 1.7 * x[1] + 2.3 * x[2];
+      Tensor<1, dim> value;
+      for (unsigned int c = 0; c < dim; ++c)
+        value[c] = scale * std::sin(1e4 * place + 1.1 * c);
       return value;
     });
     zero_at_hanging_nodes(discretization, vector);
+    constraints.project(vector);
   }
 
-  ElementChoice                choice;
-  LinearElastic                law;
-  Triangulation                triangulation;
-  Discretization<3>            discretization;
-  Constraints<3>               constraints;
-  std::unique_ptr<Dynamics<3>> dynamics;
-  State<3>                     state;
+  ElementChoice                  choice;
+  LinearElastic                  law;
+  Triangulation                  triangulation;
+  Discretization<dim>            discretization;
+  Constraints<dim>               constraints;
+  std::unique_ptr<Dynamics<dim>> dynamics;
+  State<dim>                     state;
 };
+using Body = BodyOf<3>;
 
 /// Cube [0,1]^3 of n^3 cells whose interior vertices are moved by up to a quarter of a cell; optionally its corner is refined.
 inline void distorted_cube(Body::Triangulation &triangulation, const unsigned int n, const bool hanging,

@@ -1,9 +1,6 @@
-#include <arenite/io/error_norms.h>
-#include <arenite/loads/body_force.h>
-#include <arenite/verification/free_vibration.h>
 #include <arenite/verification/manufactured.h>
 
-#include "body.h"
+#include "convergence_tools.h"
 
 using namespace Arenite;
 using namespace Arenite::Test;
@@ -11,37 +8,6 @@ using boost::unit_test::label;
 
 namespace
 {
-double order(const double coarse, const double fine) { return std::log2(coarse / fine); }
-
-/// Relative error of the displacement at @p end of a manufactured motion whose boundary values are prescribed.
-double manufactured_error(const ElementChoice &choice, std::shared_ptr<const ExactSolution<3>> exact,
-                          const std::function<void(Body::Triangulation &)> &make_mesh,
-                          const std::vector<types::boundary_id> &boundaries, const double courant, const double end)
-{
-  Body body(choice, make_mesh);
-  body.constraints.set_exact(boundaries, exact.get());
-  std::vector<std::unique_ptr<Load<3>>> loads;
-  loads.push_back(std::make_unique<BodyForce<3>>(exact));
-  body.assemble(std::move(loads));
-  body.set(body.state.displacement, [&](const Point<3> &x) { return exact->displacement(x, 0.); });
-  body.set(body.state.half_velocity, [&](const Point<3> &x) { return exact->velocity(x, 0.); });
-  zero_at_hanging_nodes(body.discretization, body.state.half_velocity);
-  StableTimeStep<3> limit;
-  limit.calibrate(*body.dynamics);
-  const unsigned int n_steps = std::ceil(end / (courant * limit.limit()));
-  for (unsigned int k = 0; k < n_steps; ++k)
-    {
-      body.dynamics->compute_force(body.state);
-      body.dynamics->close_force(body.state, end / n_steps);
-      body.dynamics->advance(body.state, end / n_steps);
-    }
-  make_consistent(body.discretization, body.state.displacement);
-  return volume_errors<3>(
-           body.discretization, [&](types::material_id) { return body.law; }, body.state.displacement,
-           body.state.displacement, *exact, end)
-    .at("volume.displacement.E_x");
-}
-
 /// Errors on two nested meshes; the step falls with h^((p+1)/2) so that the error in time stays below that in space.
 void check_order(const unsigned int degree, std::shared_ptr<const ExactSolution<3>> exact,
                  const std::function<void(Body::Triangulation &, unsigned int)> &make_mesh,
@@ -50,7 +16,7 @@ void check_order(const unsigned int degree, std::shared_ptr<const ExactSolution<
   double             error[2];
   const unsigned int p = element(degree).degree;
   for (const unsigned int k : {0u, 1u})
-    error[k] = manufactured_error(
+    error[k] = manufactured_error<3>(
       element(degree), exact, [&](auto &t) { make_mesh(t, k); }, boundaries, 0.4 / std::pow(2., 0.5 * k * (p - 1.)),
       end);
   const double q = order(error[0], error[1]);
@@ -82,14 +48,14 @@ BOOST_AUTO_TEST_CASE(manufactured_cube)
 // The same on a curved shell: breathing and twisting motion between two spheres.
 BOOST_AUTO_TEST_CASE(manufactured_shell)
 {
-  ManufacturedShell::Motion motion;
+  ManufacturedShell<3>::Motion motion;
   motion.breathing           = 1e-3;
   motion.twist               = 1e-3;
   motion.breathing_number    = 3.;
   motion.twist_number        = 2.;
   motion.breathing_frequency = 900.;
   motion.twist_frequency     = 700.;
-  const auto exact           = std::make_shared<ManufacturedShell>(soil(), 1., motion);
+  const auto exact           = std::make_shared<ManufacturedShell<3>>(soil(), 1., motion);
   for (const unsigned int degree : all_elements)
     for (const bool hanging : {false, true})
       check_order(
@@ -99,38 +65,6 @@ BOOST_AUTO_TEST_CASE(manufactured_shell)
           t.refine_global((degree < 2 || degree == 4 ? 1 : 0) + k); // degree 4 is not asymptotic on three cells
         },
         {0, 1, 2, 3, 4}, 1e-3, hanging ? "shell with hanging nodes" : "shell");
-}
-
-// Free vibration: the frequency that the discrete body shows, from the three-term recurrence of its projection on the mode,
-// q(t+dt) + q(t-dt) = 2 cos(w dt) q(t), and corrected for the known error of central differences, sin(w dt/2) = w_h dt/2.
-double measured_frequency(Body &body, const FreeVibration<3> &mode, const double periods)
-{
-  body.set(body.state.displacement, [&](const Point<3> &x) { return mode.mode(x); });
-  StableTimeStep<3> limit;
-  limit.calibrate(*body.dynamics);
-  const double        dt    = 0.8 * limit.limit();
-  VectorType          shape = body.state.displacement;
-  std::vector<double> q;
-  const unsigned int  n_steps = periods * 2. * numbers::PI / mode.angular_frequency() / dt;
-  for (unsigned int k = 0; k < n_steps; ++k)
-    {
-      double sum = 0.;
-      for (unsigned int i = 0; i < shape.locally_owned_size(); ++i)
-        if (const double w = body.state.inverse_mass.local_element(i); w > 0.)
-          sum += shape.local_element(i) * body.state.displacement.local_element(i) / w;
-      q.push_back(Utilities::MPI::sum(sum, MPI_COMM_WORLD));
-      body.dynamics->compute_force(body.state);
-      body.dynamics->close_force(body.state, dt);
-      body.dynamics->advance(body.state, dt);
-    }
-  double numerator = 0., denominator = 0.;
-  for (unsigned int k = 1; k + 1 < q.size(); ++k)
-    {
-      numerator += (q[k + 1] + q[k - 1]) * q[k];
-      denominator += 2. * q[k] * q[k];
-    }
-  const double angle = std::acos(numerator / denominator);
-  return 2. / dt * std::sin(0.5 * angle);
 }
 
 // Breathing and torsion of a ball, breathing of a shell: relative error of the frequency small, falling with order 2 p or the

@@ -8,15 +8,15 @@
 
 namespace Arenite::Test
 {
-/// Run a scene given as text, quietly, into a directory that is removed again.
-inline RunRecord run_scene(const std::string &text, const std::vector<std::string> &overrides = {})
+/// Run a scene quietly, into a directory that is removed again.
+template <int dim>
+RunRecord run_scene_in(Parameters &parameters)
 {
-  Parameters         parameters = Parameters::from_text(text, "test scene", overrides);
-  Scene<3>           scene(parameters);
+  Scene<dim>         scene(parameters);
   Log                log(MPI_COMM_SELF);
   std::ostringstream screen;
   auto *const        old = std::cout.rdbuf(screen.rdbuf());
-  Simulation<3>      simulation(scene, log, MPI_COMM_WORLD);
+  Simulation<dim>    simulation(scene, log, MPI_COMM_WORLD);
   const auto         path = std::filesystem::temp_directory_path() / ("arenite-test-" + std::to_string(getppid()));
   try
     {
@@ -35,5 +35,16 @@ inline RunRecord run_scene(const std::string &text, const std::vector<std::strin
   std::error_code ignored;
   std::filesystem::remove_all(path, ignored);
   return simulation.record;
+}
+
+inline RunRecord run_scene(Parameters parameters)
+{
+  return with_dimension(parameters, [&](const auto dim) { return run_scene_in<decltype(dim)::value>(parameters); });
+}
+
+/// The same for a scene given as text.
+inline RunRecord run_scene(const std::string &text, const std::vector<std::string> &overrides = {})
+{
+  return run_scene(Parameters::from_text(text, "test scene", overrides));
 }
 } // namespace Arenite::Test

@@ -449,7 +449,7 @@ BOOST_AUTO_TEST_CASE(manufactured)
   check(residuals<3>(cube, soil, points, times, 5e-3, 2e-5), 1e-9, "cube");
   BOOST_TEST(cube.displacement(Point<3>(1., 0.3, 0.2), 1e-3).norm() < 1e-15 * 1e-1); // sin(pi) = 1e-16 of 1e-4 m
 
-  const ManufacturedShell shell(soil, 0.25, ManufacturedShell::Motion{1e-4, 3e-4, 4., 3., 700., 500.});
+  const ManufacturedShell<3> shell(soil, 0.25, ManufacturedShell<3>::Motion{1e-4, 3e-4, 4., 3., 700., 500.});
   check(residuals<3>(shell, soil, points, times, 4e-3, 2e-5), 1e-9, "shell");
 
   // plane strain and uniaxial strain

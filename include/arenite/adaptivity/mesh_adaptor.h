@@ -2,9 +2,8 @@
 
 #include <arenite/adaptivity/refinement_indicator.h>
 #include <arenite/mesh/geometry.h>
+#include <arenite/mesh/parallel_triangulation.h>
 #include <arenite/time/stable_time_step.h>
-
-#include <deal.II/distributed/tria.h>
 
 #include <memory>
 
@@ -23,7 +22,7 @@ template <int dim>
 class MeshAdaptor
 {
 public:
-  using Triangulation = dealii::parallel::distributed::Triangulation<dim>;
+  using Triangulation = ParallelTriangulation<dim>;
 
   void declare_parameters(Parameters &);
   void finalize(const Parameters &, const MeshChoice<dim> &, const Geometry<dim> &);
@@ -55,6 +54,7 @@ public:
 
 private:
   void grow(Triangulation &, std::vector<bool> &marked) const;
+  void share_flags(Triangulation &) const;
   void check_size(const Triangulation &, double time) const;
   void flag(Triangulation &, const std::vector<bool> &front, const std::vector<bool> &quiet) const;
 

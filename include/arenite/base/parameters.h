@@ -95,10 +95,11 @@ public:
   template <int dim>
   void add_vector(const std::string &name, dealii::Tensor<1, dim> &value, const std::string &unit,
                   const std::string &sentence);
-  /// List of points "x, y, z; x, y, z".
+  /// List of points "x, y, z; x, y, z". With @p reduce the points may also have three coordinates in fewer dimensions.
   template <int dim>
   void add_points(const std::string &name, std::vector<dealii::Point<dim>> &value, const std::string &unit,
-                  const std::string &sentence);
+                  const std::string                                                 &sentence,
+                  const std::function<dealii::Point<dim>(const dealii::Point<3> &)> &reduce = {});
   void add_integer(const std::string &name, unsigned int &value, unsigned int lower, unsigned int upper,
                    const std::string &sentence);
   void add_flag(const std::string &name, bool &value, const std::string &sentence);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <arenite/base/errors.h>
+#include <arenite/base/symmetry.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/point.h>
@@ -50,14 +51,19 @@ public:
 /// ReceiverFile::first_points with equal shares for all processes.
 std::vector<unsigned int> divide_points(unsigned int n_points, MPI_Comm);
 
-/// Table with the columns `t [s]`, then `<point>.<quantity>_<component> [unit]`; process 0 has all points.
+/// Table with the columns `t [s]`, then `<point>.<quantity>_<component> [unit]`; process 0 has all points. Components carry the letters
+/// of the symmetry, and stresses are the first n_stress_components().
 template <int dim>
 std::unique_ptr<ReceiverFile<dim>> make_receiver_table(const std::string              &file_name,
                                                        const std::vector<std::string> &names,
-                                                       const ReceiverQuantities &quantities, MPI_Comm communicator);
+                                                       const ReceiverQuantities &quantities, Symmetry symmetry,
+                                                       MPI_Comm communicator);
 
 /// Write a small text file from process 0; raises OutputError on all processes.
 void write_text_file(const std::string &file_name, const std::string &text, MPI_Comm);
+
+/// "xx", "xy" ... of component @p k of a stress tensor.
+std::string stress_component(Symmetry, unsigned int k);
 
 /// Text of a number in tables.
 std::string table_number(double value);

@@ -10,6 +10,8 @@ namespace Arenite
 {
 /// Names and places of one set of receivers, as a scene gives them.
 ///
+/// Points and directions may be given in three dimensions in every scene, see reduce().
+///
 ///   Type = points   Points = x,y,z; ...                        p1, p2, ...
 ///                   or Directions = x,y,z; ... and Radii = r, ...   d1r1, d1r2, ...: every radius in every direction
 ///   Type = line     Start, End, Number                         p1 ... pN

@@ -62,10 +62,11 @@ private:
 };
 
 /// Group @p set of the store with the datasets time[n_rows], position[point][3], displacement and velocity
-/// [n_rows][point][component] and stress[n_rows][point][xx, yy, zz, xy, xz, yz]; attributes `unit` and `components`.
+/// [n_rows][point][component] and stress[n_rows][point][xx, yy, zz, xy, xz, yz], components as in tables; attributes `unit` and `components`.
 /// The time of rows that were never reached is NaN. Before ReceiverStore::create(); the points are divided among all processes.
 template <int dim>
 std::unique_ptr<ReceiverFile<dim>> make_receiver_group(std::shared_ptr<ReceiverStore> store, const std::string &set,
                                                        const std::vector<dealii::Point<dim>> &positions,
-                                                       const ReceiverQuantities &quantities, std::size_t n_rows);
+                                                       const ReceiverQuantities &quantities, Symmetry symmetry,
+                                                       std::size_t n_rows);
 } // namespace Arenite

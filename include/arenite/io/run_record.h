@@ -18,7 +18,7 @@ struct RunRecord
   std::string              title;
   std::vector<std::string> scenes, overrides; ///< as on the command line
 
-  std::string   element;
+  std::string   element, symmetry = "none";
   unsigned int  dimension = 3, degree = 1, lanes = native_lanes;
   double        symmetry_factor = 1.;
   std::uint64_t cells = 0, dofs = 0, steps = 0; ///< of the last mesh; unknowns = components of all nodes

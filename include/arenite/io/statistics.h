@@ -24,7 +24,8 @@ struct StepInfo
 
 /// statistics.csv, one row per energy report, and the line that tells the user how far the run is.
 ///
-/// All energies are those of the full body: the reports are multiplied by the symmetry factor, and the header says so.
+/// All energies are those of the full body: the reports are multiplied by the symmetry factor, and the header says so. In plane strain
+/// and plane waves they count for one metre or square metre, see per_extent().
 ///
 ///   statistics.open(directory, log, start, end, symmetry_factor);
 ///   if (statistics.is_due(step)) statistics.add(dynamics.report(state, dt), info);
@@ -36,7 +37,8 @@ public:
   void finalize(const Parameters &);
 
   /// Start the file. @p start is the time [s] at which the steps begin, @p end where they shall end. Collective.
-  void open(const OutputDirectory &, Log &, double start, double end, double symmetry_factor);
+  void open(const OutputDirectory &, Log &, double start, double end, double symmetry_factor,
+            const std::string &per_extent = "");
 
   /// True for every row_interval-th step, counted from step 0.
   bool is_due(const unsigned int step) const { return step % row_interval == 0; }
@@ -64,7 +66,7 @@ private:
   MPI_Comm      communicator = MPI_COMM_NULL;
   bool          active       = false; ///< this process writes
   double        start = 0., end = 0., symmetry_factor = 1.;
-  std::string   name, problem;
+  std::string   name, problem, unit;
   std::ofstream file;
 
   EnergyReport  last;

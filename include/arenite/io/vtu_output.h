@@ -18,7 +18,8 @@ namespace Arenite
 /// solution.pvd (ParaView) and solution.visit (VisIt). The lists name only pictures that are complete.
 ///
 ///   displacement [m], velocity [m/s]                         vectors
-///   stress [Pa]                                              tensor, tension positive, see nodal_stress()
+///   stress [Pa]                                              3 x 3 tensor, tension positive, see nodal_stress(); directions
+///                                                            beyond the mesh come last
 ///   pressure (compression positive), von_mises_stress [Pa]   of that stress
 ///   material, refinement_level, subdomain, cell fields       constant in each cell
 ///
@@ -67,7 +68,7 @@ private:
   };
 
   /// Components of all point fields that every picture has, without positions.
-  static constexpr unsigned int n_field_rows = 2 * dim + dim * dim + 5;
+  static constexpr unsigned int n_field_rows = 2 * dim + 9 + 5;
 
   unsigned int parts(const Discretization<dim> &discretization) const
   {

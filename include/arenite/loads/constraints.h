@@ -6,7 +6,7 @@
 namespace Arenite
 {
 /// `subsection Constraints`: symmetry planes, fixed boundaries, prescribed velocities. Acts on nodal forces before the update,
-/// so that the update itself knows nothing about them.
+/// so that the update itself knows nothing about them. Nodes on an axis or centre never move radially.
 template <int dim>
 class Constraints
 {

@@ -70,11 +70,12 @@ public:
   /// d field_i / d x_j of such a field.
   dealii::Tensor<2, dim> gradient(const VectorType &, unsigned int cell, const ShapeFactors<dim> &) const;
 
-  /// Small-strain elastic stress of a displacement [Pa]; components beyond dim have no strain.
+  /// Small-strain elastic stress of a displacement [Pa], in three dimensions.
   dealii::SymmetricTensor<2, 3> stress(const LinearElastic &material, const VectorType &displacement,
                                        const unsigned int cell, const ShapeFactors<dim> &factors) const
   {
-    return material.stress(gradient(displacement, cell, factors));
+    return material.stress(full_gradient(discretization.symmetry, gradient(displacement, cell, factors),
+                                         value(displacement, cell, factors), position(cell, factors)));
   }
 
   /// Box around the nodes of a cell, enlarged by a tenth of its longest side because curved cells leave it.

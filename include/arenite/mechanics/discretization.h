@@ -1,10 +1,13 @@
 #pragma once
 
+#include <arenite/mechanics/kinematics.h>
+
 #include <deal.II/base/partitioner.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/mapping.h>
+#include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <algorithm>
@@ -17,12 +20,20 @@ namespace Arenite
 /// Nodal vectors: `dim` consecutive entries per node, or one (boundary scalars). Entry of component c of local node n: dim n + c.
 using VectorType = dealii::LinearAlgebra::distributed::Vector<double>;
 
-/// Hanging nodes as an explicit list in local node numbers: u_h = sum_m c_m u_m over its masters, f_m += c_m f_h.
+/// Hanging nodes as an explicit list in local node numbers: u_h = sum_m c_m u_m over its masters, f_m += c_m f_h. On the axis of a
+/// body of revolution also nodes without mass, see even_line_weights(). The radial component of vectors is odd there and has weights
+/// of its own, the others and scalars are even.
 class HangingNodes
 {
 public:
-  void clear();
-  void add(unsigned int node, const std::vector<std::pair<unsigned int, double>> &masters);
+  struct Master
+  {
+    unsigned int node;
+    double       weight, radial_weight;
+  };
+
+  void clear(bool with_radial_weights);
+  void add(unsigned int node, const std::vector<Master> &masters);
 
   /// Lines before this one have masters on this process only; they can be resolved before ghost values arrive.
   unsigned int n_local = 0;
@@ -45,8 +56,12 @@ public:
   bool depends_on_ghosts(unsigned int node) const;
 
 private:
+  /// Weights of the first component of a vector.
+  const double *first_weights() const { return radial_weight.empty() ? weight.data() : radial_weight.data(); }
+
   std::vector<unsigned int> nodes, start{0}, master;
-  std::vector<double>       weight;
+  std::vector<double>       weight, radial_weight; ///< the second empty where both are the same
+  bool                      with_radial_weights = false;
 };
 
 /// Nodes, geometry and parallel layout of one mesh: what kernels, loads, receivers and output share.
@@ -60,7 +75,7 @@ public:
   using Triangulation = dealii::Triangulation<dim>;
   using CellIterator  = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
-  Discretization(Triangulation &, unsigned int degree);
+  Discretization(Triangulation &, unsigned int degree, Symmetry = cartesian<dim>());
 
   /// Number the nodes of the present mesh and build the layout; positions are left zero.
   void distribute_nodes();
@@ -86,11 +101,21 @@ public:
   VectorType new_scalar() const { return VectorType(node_partitioner); }
 
   dealii::Point<dim> position(const unsigned int node) const;
+  /// A node without radial motion: r = 0 to the last bit, in the symmetries that have an axis or centre.
+  bool on_axis(const unsigned int node) const
+  {
+    return n_hoop_directions(symmetry) > 0 && positions.local_element(dim * node) == 0.;
+  }
+
+  /// After the owned entries of the positions have changed: nodes within round-off of the axis lie on it, and all is consistent.
+  void complete_positions();
+
   /// Node coordinates of one cell, lexicographic.
   void cell_positions(unsigned int cell, std::vector<dealii::Point<dim>> &x) const;
 
   const MPI_Comm            communicator;
   Triangulation            &triangulation;
+  const Symmetry            symmetry;
   const dealii::FE_Q<dim>   fe;
   dealii::DoFHandler<dim>   dofs;          ///< one scalar unknown per node
   std::vector<unsigned int> lexicographic; ///< deal.II's cell-wise number of lexicographic node i
@@ -99,6 +124,11 @@ public:
   std::shared_ptr<const dealii::Utilities::MPI::Partitioner> node_partitioner, vector_partitioner;
 
 private:
+  void add_axis_lines(dealii::AffineConstraints<double> &) const;
+  void make_hanging_nodes(const std::vector<dealii::types::global_dof_index> &lines,
+                          const dealii::AffineConstraints<double>            &constraints,
+                          const dealii::AffineConstraints<double>            &radial);
+
   std::vector<CellIterator> cell_list;
   std::vector<unsigned int> node_table;
 };
@@ -121,12 +151,13 @@ inline void copy_with_ghosts(const VectorType &from, VectorType &to)
 template <int dim>
 void HangingNodes::interpolate(double *u, const unsigned int begin, const unsigned int end) const
 {
+  const double *first = dim == 1 ? weight.data() : first_weights();
   for (unsigned int h = begin; h < end; ++h)
     {
       double sum[dim] = {};
       for (unsigned int k = start[h]; k < start[h + 1]; ++k)
         for (unsigned int c = 0; c < dim; ++c)
-          sum[c] += weight[k] * u[dim * master[k] + c];
+          sum[c] += (c == 0 ? first : weight.data())[k] * u[dim * master[k] + c];
       for (unsigned int c = 0; c < dim; ++c)
         u[dim * nodes[h] + c] = sum[c];
     }
@@ -135,12 +166,13 @@ void HangingNodes::interpolate(double *u, const unsigned int begin, const unsign
 template <int dim>
 void HangingNodes::condense(double *f) const
 {
+  const double *first = dim == 1 ? weight.data() : first_weights();
   for (unsigned int h = 0; h < size(); ++h)
     for (unsigned int c = 0; c < dim; ++c)
       {
         double &force = f[dim * nodes[h] + c];
         for (unsigned int k = start[h]; k < start[h + 1]; ++k)
-          f[dim * master[k] + c] += weight[k] * force;
+          f[dim * master[k] + c] += (c == 0 ? first : weight.data())[k] * force;
         force = 0.;
       }
 }

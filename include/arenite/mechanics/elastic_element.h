@@ -1,6 +1,6 @@
 #pragma once
 
-#include <arenite/base/number.h>
+#include <arenite/mechanics/kinematics.h>
 
 namespace Arenite
 {
@@ -49,15 +49,18 @@ ARENITE_INLINE V cofactors(const V (&J)[1][1], V (&C)[1][1])
   return J[0][0];
 }
 
-/// sigma = scale (lambda tr(eps) 1 + 2 mu eps), eps the symmetric part of @p gradient. With dim < 3 the missing strains are zero.
-template <int dim, typename V>
-ARENITE_INLINE void elastic_stress(const V (&gradient)[dim][dim], const V &scale, const ElasticModuli &moduli,
-                                   V (&stress)[dim][dim])
+/// sigma = scale (lambda tr(eps) 1 + 2 mu eps), eps the symmetric part of @p gradient with @p hoop in the hoop directions; other
+/// strains beyond dim are zero.
+template <int n_hoop, int dim, typename V>
+ARENITE_INLINE void elastic_stress(const V (&gradient)[dim][dim], const V &hoop, const V &scale,
+                                   const ElasticModuli &moduli, V (&stress)[dim][dim], V &hoop_stress)
 {
   const V lambda = V(moduli.lambda) * scale, mu = V(moduli.mu) * scale;
   V       trace = gradient[0][0];
   for (int i = 1; i < dim; ++i)
     trace += gradient[i][i];
+  if constexpr (n_hoop > 0)
+    trace += V(double(n_hoop)) * hoop;
   const V pressure_part = lambda * trace;
   for (int i = 0; i < dim; ++i)
     {
@@ -65,6 +68,17 @@ ARENITE_INLINE void elastic_stress(const V (&gradient)[dim][dim], const V &scale
       for (int j = i + 1; j < dim; ++j)
         stress[i][j] = stress[j][i] = mu * (gradient[i][j] + gradient[j][i]);
     }
+  if constexpr (n_hoop > 0)
+    hoop_stress = pressure_part + (mu + mu) * hoop;
+  else
+    (void)hoop, (void)hoop_stress;
+}
+template <int dim, typename V>
+ARENITE_INLINE void elastic_stress(const V (&gradient)[dim][dim], const V &scale, const ElasticModuli &moduli,
+                                   V (&stress)[dim][dim])
+{
+  V unused = V(0.);
+  elastic_stress<0>(gradient, unused, scale, moduli, stress, unused);
 }
 
 template <int dim, typename V>

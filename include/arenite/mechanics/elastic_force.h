@@ -1,8 +1,8 @@
 #pragma once
 
 #include <arenite/mechanics/cell_batches.h>
-#include <arenite/mechanics/hexahedron.h>
 #include <arenite/mechanics/internal_force.h>
+#include <arenite/mechanics/multilinear_element.h>
 #include <arenite/mechanics/spectral_element.h>
 
 #include <deal.II/base/exceptions.h>
@@ -117,8 +117,8 @@ public:
   }
 
 private:
-  static constexpr int n_amplitudes = 4 * dim; ///< per cell
-  using Amplitudes                  = Number[dim][4];
+  static constexpr int n_patterns = Element::n_patterns, n_amplitudes = n_patterns * dim; ///< per cell
+  using Amplitudes = Number[dim][n_patterns];
 
   const unsigned int *entries(const unsigned int batch) const { return &batches.entries[batch * n_nodes * W]; }
 
@@ -160,16 +160,16 @@ private:
             gather<dim, W, n_nodes>(V, entries(b), v);
             for (int k = 0; k < n_amplitudes; ++k)
               if (amplitudes)
-                Q[k / 4][k % 4] = Arenite::load<Number>(amplitudes + (b * n_amplitudes + k) * W);
+                Q[k / n_patterns][k % n_patterns] = Arenite::load<Number>(amplitudes + (b * n_amplitudes + k) * W);
               else
-                Q[k / 4][k % 4] = Number(0.);
+                Q[k / n_patterns][k % n_patterns] = Number(0.);
           }
         element_force<false, with_viscosity>(x, u, v, Q, energy);
         if constexpr (with_viscosity)
           if (amplitudes)
             {
               for (int k = 0; k < n_amplitudes; ++k)
-                Arenite::store<Number>(Q[k / 4][k % 4], amplitudes + (b * n_amplitudes + k) * W);
+                Arenite::store<Number>(Q[k / n_patterns][k % n_patterns], amplitudes + (b * n_amplitudes + k) * W);
               for (int l = 0; l < batches.active[b]; ++l)
                 power += lane(energy.viscous, l);
             }
@@ -185,9 +185,11 @@ private:
   {
     Number volume[n_nodes], y[dim][n_nodes], v[dim][n_nodes], lambda = Number(0.);
     Element::nodal_volume(x, volume);
+    const std::vector<AxisNode> on_axis = axis_nodes(x);
     for (int n = 0; n < n_nodes; ++n)
       for (int c = 0; c < dim; ++c)
         y[c][n] = Number(std::sin(1. + 2.3 * n * n + 1.7 * c * (n + 1)));
+    interpolate(on_axis, y);
     for (unsigned int iteration = 0; iteration < 60; ++iteration)
       {
         Number       z[dim][n_nodes], yy = Number(0.), yz = Number(0.);
@@ -204,6 +206,7 @@ private:
           element_force<false, Element::has_hourglass_control>(x, z, v, Q, unused);
         else
           element_force<false, false>(x, z, v, Q, unused);
+        condense(on_axis, z);
         for (int c = 0; c < dim; ++c)
           for (int n = 0; n < n_nodes; ++n)
             {
@@ -211,6 +214,7 @@ private:
               yy += y[c][n] * y[c][n] * volume[n];
               z[c][n] = z[c][n] / volume[n];
             }
+        interpolate(on_axis, z);
         lambda = -yz / yy * (1. / law.density);
         if (viscous && iteration == 0)
           continue; // the rate was zero: K alone would take the hourglass patterns out of y for good
@@ -222,6 +226,65 @@ private:
     return lambda;
   }
 
+  /// A node on the axis or in the centre, in one lane: it has no radial motion and, without a mass of its own, follows the nodes of
+  /// its line, node + m stride.
+  struct AxisNode
+  {
+    int  lane, node, stride;
+    bool follows;
+  };
+
+  /// Empty for cells of the interior and in Cartesian coordinates.
+  static std::vector<AxisNode> axis_nodes(const Number (&x)[dim][n_nodes])
+  {
+    std::vector<AxisNode> result;
+    if constexpr (Element::n_hoop > 0)
+      for (int l = 0; l < W; ++l)
+        for (int n = 0; n < n_nodes; ++n)
+          if (lane(x[0][n], l) == 0.)
+            {
+              constexpr int N      = Element::degree + 1;
+              int           stride = 0; // of the direction in which the radius grows
+              for (int d = 0, step = 1; d < dim; ++d, step *= N)
+                for (const int side : {0, N - 1})
+                  if (n / step % N == side && lane(x[0][side == 0 ? n + step : n - step], l) > 0.)
+                    stride = side == 0 ? step : -step;
+              result.push_back({l, n, stride, dim == 2 && Element::degree > 1});
+            }
+    (void)x;
+    return result;
+  }
+
+  /// Values of axis nodes from those of their lines, and forces the other way.
+  static void interpolate(const std::vector<AxisNode> &nodes, Number (&u)[dim][n_nodes])
+  {
+    for (const auto &[l, n, stride, follows] : nodes)
+      {
+        set_lane(u[0][n], l, 0.);
+        if (!follows)
+          continue;
+        const std::vector<double> weights = even_line_weights(Element::degree);
+        double                    sum     = 0.;
+        for (int m = 1; m <= Element::degree; ++m)
+          sum += weights[m] * lane(u[dim - 1][n + m * stride], l);
+        set_lane(u[dim - 1][n], l, sum);
+      }
+  }
+  static void condense(const std::vector<AxisNode> &nodes, Number (&f)[dim][n_nodes])
+  {
+    for (const auto &[l, n, stride, follows] : nodes)
+      {
+        set_lane(f[0][n], l, 0.);
+        if (!follows)
+          continue;
+        const std::vector<double> weights = even_line_weights(Element::degree);
+        for (int m = 1; m <= Element::degree; ++m)
+          set_lane(f[dim - 1][n + m * stride], l,
+                   lane(f[dim - 1][n + m * stride], l) + weights[m] * lane(f[dim - 1][n], l));
+        set_lane(f[dim - 1][n], l, 0.);
+      }
+  }
+
   const LinearElastic              law;
   const dealii::types::material_id block;
   ElasticModuli                    moduli;
@@ -230,25 +293,41 @@ private:
   CellBatches<dim, W>              batches;
 };
 
-template <int dim, int W>
-std::unique_ptr<InternalForce<dim>> make_elastic_force(const ElementChoice &element, const LinearElastic &law,
-                                                       const dealii::types::material_id block)
+/// The kernel of an element with H hoop directions.
+template <int dim, int n_hoop, int W>
+std::unique_ptr<InternalForce<dim>> make_elastic_kernel(const ElementChoice &element, const LinearElastic &law,
+                                                        const dealii::types::material_id block)
 {
   if (element.type == "spectral element")
     switch (element.degree)
       {
+      case 1:
+        if constexpr (dim < 3)
+          return std::make_unique<ElasticForce<SpectralElement<dim, 1, n_hoop>, W>>(element, law, block);
+        break;
       case 2:
-        return std::make_unique<ElasticForce<SpectralElement<dim, 2>, W>>(element, law, block);
+        return std::make_unique<ElasticForce<SpectralElement<dim, 2, n_hoop>, W>>(element, law, block);
       case 3:
-        return std::make_unique<ElasticForce<SpectralElement<dim, 3>, W>>(element, law, block);
+        return std::make_unique<ElasticForce<SpectralElement<dim, 3, n_hoop>, W>>(element, law, block);
       case 4:
-        return std::make_unique<ElasticForce<SpectralElement<dim, 4>, W>>(element, law, block);
+        return std::make_unique<ElasticForce<SpectralElement<dim, 4, n_hoop>, W>>(element, law, block);
       }
   else if (element.type == "hexahedron")
-    return std::make_unique<ElasticForce<FullHexahedron, W>>(element, law, block);
+    return std::make_unique<ElasticForce<FullElement<dim, n_hoop>, W>>(element, law, block);
   else if (element.type == "one-point hexahedron")
-    return std::make_unique<ElasticForce<OnePointHexahedron, W>>(element, law, block);
+    return std::make_unique<ElasticForce<OnePointElement<dim, n_hoop>, W>>(element, law, block);
   AssertThrow(false, dealii::ExcMessage("no kernel for element '" + element.type + "' of this degree"));
   return nullptr;
+}
+
+template <int dim, int W>
+std::unique_ptr<InternalForce<dim>> make_elastic_force(const ElementChoice &element, const LinearElastic &law,
+                                                       const dealii::types::material_id block, const Symmetry symmetry)
+{
+  if constexpr (dim < 3)
+    if (n_hoop_directions(symmetry) > 0)
+      return make_elastic_kernel<dim, 3 - dim, W>(element, law, block);
+  (void)symmetry;
+  return make_elastic_kernel<dim, 0, W>(element, law, block);
 }
 } // namespace Arenite

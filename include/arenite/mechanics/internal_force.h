@@ -82,6 +82,6 @@ public:
 /// Fused small-strain linear elasticity: no stress and no history is stored. @p block: material id of its cells; by default all cells.
 template <int dim, int W = native_lanes>
 std::unique_ptr<InternalForce<dim>> make_elastic_force(
-  const ElementChoice &, const LinearElastic &,
-  dealii::types::material_id block = dealii::numbers::invalid_material_id);
+  const ElementChoice &, const LinearElastic &, dealii::types::material_id block = dealii::numbers::invalid_material_id,
+  Symmetry = cartesian<dim>());
 } // namespace Arenite

@@ -10,9 +10,9 @@
 
 namespace Arenite
 {
-/// One scalar nodal vector per independent component, in the order of dealii::SymmetricTensor (xx, yy, zz, xy, xz, yz).
+/// One scalar nodal vector per component.
 template <int dim>
-using NodalStress = std::array<VectorType, dealii::SymmetricTensor<2, dim>::n_independent_components>;
+using NodalStress = std::array<VectorType, n_stress_components(dim)>;
 
 /// Stress at the nodes [Pa], tension positive: the law applied to the gradient of each cell's own polynomial at its nodes, then
 /// the mean over the cells that touch the node, all with the same weight. Hanging nodes follow their masters. Exact for linear
@@ -25,10 +25,8 @@ NodalStress<dim> nodal_stress(const Discretization<dim> &, const VectorType &dis
                               const std::vector<LinearElastic> &materials);
 
 /// Mean pressure [Pa], compression positive.
-template <int dim>
-double pressure(const dealii::SymmetricTensor<2, dim> &stress);
+double pressure(const dealii::SymmetricTensor<2, 3> &stress);
 
 /// sqrt(3/2 s : s) [Pa] with the deviator s.
-template <int dim>
-double von_mises_stress(const dealii::SymmetricTensor<2, dim> &stress);
+double von_mises_stress(const dealii::SymmetricTensor<2, 3> &stress);
 } // namespace Arenite

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <arenite/base/number.h>
 #include <arenite/mechanics/elastic_element.h>
+#include <arenite/mechanics/multilinear_element.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -40,17 +40,19 @@ struct GaussLobattoBasis
   }
 };
 
-constexpr int power(const int base, const int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
-
 /// Spectral element of degree p: nodes and quadrature points are the same (p+1)^dim Gauss-Lobatto points, so that the mass is
 /// diagonal and derivatives are sums along lines of nodes (sum factorisation). Geometry is the polynomial through the nodes,
 /// recomputed in every call: reading it back from memory would be slower.
 ///
-///   f_i = - sum_q w_q det(J_q) sigma(q) . grad N_i(q)
-template <int dim_, int degree>
+///   f_i = - sum_q w_q m(r_q) det(J_q) sigma(q) . grad N_i(q),   and f_r -= H w_i m(r_i)/r_i det(J_i) sigma_tt(i)
+///
+/// with the measure m and the H hoop directions of kinematics.h. Nodes on the axis have no mass of their own, see
+/// even_line_weights(); at degree 1, where these leave only a constant, the mass is that of FullElement.
+template <int dim_, int degree_, int n_hoop_ = 0>
 struct SpectralElement
 {
-  static constexpr int                     dim = dim_, N = degree + 1, n_nodes = power(N, dim_);
+  static constexpr int                     dim = dim_, degree = degree_, n_hoop = n_hoop_;
+  static constexpr int                     N = degree + 1, n_nodes = power(N, dim_), n_patterns = 1;
   static constexpr bool                    has_hourglass_control = false;
   static inline const GaussLobattoBasis<N> basis{};
 
@@ -111,13 +113,16 @@ struct SpectralElement
                                             const ElasticModuli &moduli, ElementEnergy<V> &energy)
   {
     V flux[dim][dim][n_nodes]; // [component][direction]: weight det(J) sigma . grad xi
+    V hoop_force[n_hoop > 0 ? n_nodes : 1];
     for_each_node([&](const int n, const int *c) {
       V gu[dim][dim], gx[dim][dim], cofactor[dim][dim];
       reference_gradient(u, n, c, gu);
       reference_gradient(x, n, c, gx);
       const V det   = cofactors(gx, cofactor);
-      const V scale = V(weight(c)) / det; // the two cofactors below carry det^2, the volume element det
-      V       gradient[dim][dim];
+      V       scale = V(weight(c)) / det; // the two cofactors below carry det^2, the volume element det
+      if constexpr (n_hoop > 0)
+        scale *= measure<n_hoop>(x[0][n]);
+      V gradient[dim][dim], hoop = V(0.), hoop_stress = V(0.);
       for (int i = 0; i < dim; ++i)
         for (int j = 0; j < dim; ++j)
           {
@@ -125,10 +130,16 @@ struct SpectralElement
             for (int d = 1; d < dim; ++d)
               gradient[i][j] += gu[i][d] * cofactor[j][d];
           }
+      if constexpr (n_hoop > 0)
+        hoop = det * u[0][n] * inverse_radius(x[0][n]);
       V stress[dim][dim];
-      elastic_stress(gradient, scale, moduli, stress);
+      elastic_stress<n_hoop>(gradient, hoop, scale, moduli, stress, hoop_stress);
       if constexpr (with_energy)
         energy.strain += V(0.5) * contract(stress, gradient); // one factor carries det, the other weight
+      if constexpr (with_energy && n_hoop > 0)
+        energy.strain += V(0.5 * n_hoop) * hoop_stress * hoop;
+      if constexpr (n_hoop > 0)
+        hoop_force[n] = V(double(n_hoop)) * hoop_stress * det * inverse_radius(x[0][n]);
       for (int i = 0; i < dim; ++i)
         for (int d = 0; d < dim; ++d)
           {
@@ -142,6 +153,9 @@ struct SpectralElement
       for (int i = 0; i < dim; ++i)
         {
           V sum = V(0.);
+          if constexpr (n_hoop > 0)
+            if (i == 0)
+              sum = -hoop_force[n];
           for (int d = 0; d < dim; ++d)
             {
               const int stride = d == 0 ? 1 : (d == 1 ? N : N * N);
@@ -154,14 +168,18 @@ struct SpectralElement
     });
   }
 
-  /// Volume that belongs to each node [m^3]: w_q det(J_q).
+  /// Volume that belongs to each node [m^3]: w_q m(r_q) det(J_q).
   template <typename V>
   static void nodal_volume(const V (&x)[dim][n_nodes], V (&volume)[n_nodes])
   {
+    if constexpr (degree == 1 && n_hoop > 0)
+      return FullElement<dim, n_hoop>::nodal_volume(x, volume);
     for_each_node([&](const int n, const int *c) {
       V gx[dim][dim], cofactor[dim][dim];
       reference_gradient(x, n, c, gx);
       volume[n] = V(weight(c)) * cofactors(gx, cofactor);
+      if constexpr (n_hoop > 0)
+        volume[n] *= measure<n_hoop>(x[0][n]);
     });
   }
 

@@ -2,6 +2,7 @@
 
 #include <arenite/base/parameters.h>
 #include <arenite/base/registry.h>
+#include <arenite/base/symmetry.h>
 
 #include <deal.II/grid/tria.h>
 
@@ -32,6 +33,8 @@ public:
   /// Ids of the boundaries in @p list; refuses unknown names at @p path with the nearest known one.
   std::vector<dealii::types::boundary_id> boundary_ids(const Parameters &, const std::string &path,
                                                        const std::vector<std::string> &list) const;
+
+  Symmetry symmetry = cartesian<dim>();
 
 protected:
   std::vector<std::string> names;

@@ -4,7 +4,7 @@
 
 namespace Arenite
 {
-/// Hexahedra from a Gmsh file (format 2.2 or 4.1). deal.II reads damaged meshes without a word, so the mesh is audited:
+/// Hexahedra, or quadrilaterals in two dimensions, from a Gmsh file (format 2.2 or 4.1). deal.II reads damaged meshes without a word, so the mesh is audited:
 /// only hexahedra, positive Jacobians at all corners, no vertices that lie on each other without being the same.
 template <int dim>
 class ImportedMesh : public Geometry<dim>

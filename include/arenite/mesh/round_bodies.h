@@ -5,6 +5,9 @@
 namespace Arenite
 {
 /// Spherical shell a < r < b around the origin: the cavity scene. Layers in geometric progression keep the cells' aspect.
+///
+/// Axisymmetric: half a ring in the half-plane r > 0, or a quarter of it for the octant; spherical: the segment a < r < b. In plane
+/// strain the body is a pipe. Boundaries keep their names, 'symmetry x' is the axis.
 template <int dim>
 class SphericalShell : public Geometry<dim>
 {
@@ -21,7 +24,7 @@ private:
   unsigned int layers = 0;
 };
 
-/// Solid ball r < b around the origin. Cells are blended between the sphere and a flat core.
+/// Solid ball r < b around the origin, or its section as of SphericalShell. Cells are blended between the sphere and a flat core.
 template <int dim>
 class Ball : public Geometry<dim>
 {
@@ -29,7 +32,7 @@ public:
   Ball();
   void   declare_parameters(Parameters &) override;
   void   create(dealii::Triangulation<dim> &) const override;
-  double symmetry_factor() const override { return sector == "octant" ? 8. : 1.; }
+  double symmetry_factor() const override;
 
 private:
   std::string sector = "octant";

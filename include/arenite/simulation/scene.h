@@ -33,11 +33,12 @@ struct Block
 template <int dim>
 struct Scene
 {
-  /// Declare the entries of the models that this scene chose, parse strictly, derive and cross-check.
+  /// Declare the entries of the models that this scene chose, parse strictly, derive and cross-check. `Dimension` is dim.
   explicit Scene(Parameters &);
 
-  std::string title, dimension = "3", symmetry = "none", kinematics = "small strain";
-  double      end_time = std::numeric_limits<double>::quiet_NaN();
+  std::string    title, kinematics = "small strain";
+  const Symmetry symmetry;
+  double         end_time = std::numeric_limits<double>::quiet_NaN();
 
   MeshChoice<dim>                           mesh;
   ElementChoice                             element;
@@ -57,7 +58,23 @@ private:
   void declare_parameters(Parameters &);
   void finalize(Parameters &);
 
+  std::string              dimension = "3", symmetry_name = "none"; ///< what DimensionChoice has read already
   std::vector<std::string> block_names, load_names;
   std::list<std::string>   load_types; ///< what `set Type` of each load binds to
 };
+
+/// Call @p f(std::integral_constant<int, dim>()) with the dimension that the parameters ask for.
+template <typename Function>
+auto with_dimension(const Parameters &parameters, const Function &f)
+{
+  switch (DimensionChoice(parameters).dimension)
+    {
+    case 1:
+      return f(std::integral_constant<int, 1>());
+    case 2:
+      return f(std::integral_constant<int, 2>());
+    default:
+      return f(std::integral_constant<int, 3>());
+    }
+}
 } // namespace Arenite

@@ -6,8 +6,6 @@
 #include <arenite/simulation/scene.h>
 #include <arenite/time/dynamics.h>
 
-#include <deal.II/distributed/tria.h>
-
 #include <chrono>
 
 namespace Arenite
@@ -46,14 +44,14 @@ private:
 
   MaterialOfBlock material_of_block() const;
 
-  Log                                              &log;
-  const MPI_Comm                                    communicator;
-  dealii::parallel::distributed::Triangulation<dim> triangulation;
-  Discretization<dim>                               discretization;
-  std::unique_ptr<Dynamics<dim>>                    dynamics;
-  State<dim>                                        state;
-  double                                            initial_mass = 0., output_seconds = 0., adaptation_seconds = 0.;
-  double                                            step_power = 0., known_energy = 0.;
-  unsigned int                                      n_adaptations = 0;
+  Log                           &log;
+  const MPI_Comm                 communicator;
+  ParallelTriangulation<dim>     triangulation;
+  Discretization<dim>            discretization;
+  std::unique_ptr<Dynamics<dim>> dynamics;
+  State<dim>                     state;
+  double                         initial_mass = 0., output_seconds = 0., adaptation_seconds = 0.;
+  double                         step_power = 0., known_energy = 0.;
+  unsigned int                   n_adaptations = 0;
 };
 } // namespace Arenite

@@ -76,8 +76,9 @@ private:
 ///   f = U sin(w1 t) [-rho w1^2 B - (lambda + 2 G)(B'' + 2 B'/r - 2 B/r^2)] e_r
 ///     + V sin(w2 t) [-rho w2^2 C - G (C'' + 4 C'/r)] (e_z x x)
 ///
-/// Not for points at r = 0. Three dimensions.
-class ManufacturedShell : public ExactSolution<3>
+/// Not for points at r = 0. In fewer dimensions the breathing alone, V = 0: sections of it on the radius or in the meridian plane.
+template <int dim>
+class ManufacturedShell : public ExactSolution<dim>
 {
 public:
   struct Motion
@@ -92,10 +93,10 @@ public:
 
   ManufacturedShell(const LinearElastic &material, double inner_radius, const Motion &motion);
 
-  dealii::Tensor<1, 3>          displacement(const dealii::Point<3> &x, double t) const override;
-  dealii::Tensor<1, 3>          velocity(const dealii::Point<3> &x, double t) const override;
-  dealii::SymmetricTensor<2, 3> stress(const dealii::Point<3> &x, double t) const override;
-  dealii::Tensor<1, 3>          body_force(const dealii::Point<3> &x, double t) const override;
+  dealii::Tensor<1, dim>        displacement(const dealii::Point<dim> &x, double t) const override;
+  dealii::Tensor<1, dim>        velocity(const dealii::Point<dim> &x, double t) const override;
+  dealii::SymmetricTensor<2, 3> stress(const dealii::Point<dim> &x, double t) const override;
+  dealii::Tensor<1, dim>        body_force(const dealii::Point<dim> &x, double t) const override;
   bool                          has_body_force() const override { return true; }
 
   void declare_parameters(Parameters &parameters) override;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <arenite/base/symmetry.h>
 #include <arenite/base/time_history.h>
 #include <arenite/verification/exact_solution.h>
 
@@ -16,11 +17,14 @@ class SolutionChoice
 public:
   void declare_parameters(Parameters &);
 
-  /// Null for 'none'. @p pressure: the history of the scene's first pressure load, or null.
+  /// Null for 'none'. @p pressure: the history of the scene's first pressure load, or null. Refuses a solution that the symmetry
+  /// does not allow.
   std::shared_ptr<const ExactSolution<dim>> make(const Parameters &, const LinearElastic &,
-                                                 std::shared_ptr<const TimeHistory> pressure) const;
+                                                 std::shared_ptr<const TimeHistory> pressure, Symmetry) const;
 
 private:
+  bool fits(Symmetry) const;
+
   std::string  type         = "none";
   double       inner_radius = 0.1, outer_radius = 1., side = 1., frequency = 1000., amplitude = 1e-3;
   unsigned int mode = 1;
