@@ -96,9 +96,11 @@ struct BodyOf
   void randomize(VectorType &vector, const double scale) const
   {
     set(vector, [&](const Point<dim> &x) {
-      double place = 0.;
-      for (unsigned int d = 0; d < dim; ++d)
-        place += (d == 0 ? 1. : (d == 1 ? 1.7 : 2.3)) * x[d];
+      double place = x[0];
+      if constexpr (dim == 2)
+        place = x[0] + 1.7 * x[1];
+      else if constexpr (dim == 3)
+        place = x[0] + 1.7 * x[1] + 2.3 * x[2];
       Tensor<1, dim> value;
       for (unsigned int c = 0; c < dim; ++c)
         value[c] = scale * std::sin(1e4 * place + 1.1 * c);

@@ -320,8 +320,9 @@ BOOST_AUTO_TEST_CASE(lame_square)
   const LameMode<2>   mode(law, 1.);
   for (const ElementChoice &choice : all_elements_of_plane())
     check_order("Lame mode, " + describe(choice, Symmetry::plane_strain), choice.degree, [&](const unsigned int k) {
-      BodyOf<2> body(choice,
-                     [&](auto &t) { GridGenerator::subdivided_hyper_cube(t, (choice.degree < 2 ? 8 : 2) << k); });
+      // the error of Gauss-Lobatto elements of degree 1 is a difference of two that nearly cancel on coarse meshes
+      const unsigned int n = choice.degree > 1 ? 2 : (choice.type == "spectral element" ? 32 : 8);
+      BodyOf<2>          body(choice, [&](auto &t) { GridGenerator::subdivided_hyper_cube(t, n << k); });
       body.assemble();
       return std::abs(measured_frequency(body, mode, 1.5) / mode.angular_frequency() - 1.);
     });

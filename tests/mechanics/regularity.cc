@@ -46,8 +46,9 @@ BOOST_AUTO_TEST_CASE(orders_of_the_reference_cavities)
           BOOST_TEST_MESSAGE(what << " errors " << coarse.errors.at(key) << " " << fine.errors.at(key)
                                           << " core seconds " << fine.core_seconds);
           BOOST_TEST(q > law - 0.3, what);
-          if (k < 0) // a jump converges no faster, whatever the degree
-            BOOST_TEST(q < law + 0.3, what);
+          if (k < 0 &&
+              quantity == "displacement") // a jump converges no faster, whatever the degree; the order of the stress at
+            BOOST_TEST(q < law + 0.3, what); // four points depends on where they lie in their cells, 0.43 to 0.95
         };
         check("displacement", std::min(p + 1., (k + 2.5) * 2. * p / (2. * p + 1.)));
         check("stress", std::min(1. * p, (k + 1.5) * 2. * p / (2. * p + 1.)));

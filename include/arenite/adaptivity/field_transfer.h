@@ -47,21 +47,20 @@ public:
     const unsigned int n_components = field.get_partitioner().get() == discretization.node_partitioner.get() ? 1 : dim;
     for (unsigned int c = 0; c < n_components; ++c)
       {
-        VectorType scalar = discretization.new_scalar();
-        for (unsigned int node = 0; node < discretization.n_local_nodes(); ++node)
-          scalar.local_element(node) = field.local_element(n_components * node + c);
         if constexpr (dim == 1)
           {
-            dealii::Vector<double> whole(discretization.n_nodes());
-            for (const auto i : scalar.locally_owned_elements())
-              whole[i] = scalar(i);
-            sum_over_processes(whole, discretization.communicator);
-            scalars.push_back(whole);
+            scalars.emplace_back(discretization.n_nodes());
+            for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+              scalars.back()[discretization.node_partitioner->local_to_global(node)] =
+                field.local_element(n_components * node + c);
+            sum_over_processes(scalars.back(), discretization.communicator);
           }
-        else
+        else // in place: a copy would lose the ghosts
           {
-            scalar.set_ghost_state(true);
-            scalars.push_back(scalar);
+            scalars.push_back(discretization.new_scalar());
+            for (unsigned int node = 0; node < discretization.n_local_nodes(); ++node)
+              scalars.back().local_element(node) = field.local_element(n_components * node + c);
+            scalars.back().set_ghost_state(true);
           }
       }
   }
