@@ -271,6 +271,13 @@ ARENITE_INLINE V logarithm(const V &a)
 {
   return NumberFunctions<V>::logarithm(a);
 }
+/// ln(1 + a) without cancellation near zero: ln(u) a/(u - 1) with the rounded u = 1 + a.
+template <typename V>
+ARENITE_INLINE V logarithm_one_plus(const V &a)
+{
+  const V u = V(1.) + a, rounded = u - V(1.);
+  return Arenite::select<V>(rounded == V(0.), a, V(Arenite::logarithm<V>(u) * (a / rounded)));
+}
 
 /// a^n for a >= 0 with the same exponent in all lanes; cheap for n = 0, 1/2, 1, 3/2, 2, 3.
 template <typename V>
