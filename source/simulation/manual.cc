@@ -1,5 +1,6 @@
 #include <arenite/materials/law_list.h>
 #include <arenite/materials/material_test.h>
+#include <arenite/materials/strength.h>
 #include <arenite/simulation/commands.h>
 #include <arenite/simulation/scene.h>
 
@@ -94,6 +95,18 @@ std::string complete_manual()
         law->declare_parameters(entries);
       }
       text += "\nEntries of `set Law = " + name + "`:\n\n" + entries.manual();
+    }
+
+  text += "\n# Strengths\n\nEntries of the laws that have `Strength`, by its value; `none` has no others.\n";
+  for (const std::string name : {ElasticShear::name, MisesStrength::name, FrictionStrength::name})
+    {
+      Parameters entries = Parameters::from_text("subsection Materials\nset Strength = " + name + "\nend\n", "manual");
+      SelectedStrength strength;
+      {
+        const auto section = entries.section("Materials");
+        strength.declare_parameters(entries);
+      }
+      text += "\nEntries of `set Strength = " + name + "`:\n\n" + entries.manual();
     }
 
   text += "\n# Tests of a material\n\n`arenite material FILE.prm` does one of these to one point:\n\n" +

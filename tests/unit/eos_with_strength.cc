@@ -53,9 +53,9 @@ struct LawPoint
     response                    = law.update(stress, step, history);
     stress                      = response.stress;
     const double v_n = 1. / density, v = 1. / step.density;
-    work += .5 * contract(deviator(old) + deviator(stress), deviator(increment)) * .5 * (v_n + v) -
+    work += .5 * contract(deviator(old) * v_n + deviator(stress) * v, deviator(increment)) -
             .5 * (pressure(old) + pressure(stress)) * (v - v_n);
-    dissipated += response.dissipated / step.density;
+    dissipated += response.dissipated * .5 * (v_n + v);
     density = step.density;
   }
 };
@@ -81,7 +81,8 @@ BOOST_AUTO_TEST_CASE(is_a_law)
   });
 }
 
-// Linear compression with elastic shear is Hooke's law in logarithmic strain. Round-off.
+// Linear compression with elastic shear is Hooke's law in logarithmic strain: for the pressure in Cauchy, for the deviator in Kirchhoff
+// stress. Nothing is lost. Round-off.
 BOOST_AUTO_TEST_CASE(hooke)
 {
   using Law = EquationOfStateWithStrength<LinearCompression, ElasticShear>;
@@ -90,16 +91,17 @@ BOOST_AUTO_TEST_CASE(hooke)
   LawPoint<Law> point(law);
   for (int i = 0; i < 10; ++i)
     point.strain(uniaxial(-1e-3));
-  BOOST_TEST(point.stress[2] == -1e-2 * (4e8 + 4. / 3. * 2e8), tolerance(1e-12));
-  BOOST_TEST(point.stress[0] == -1e-2 * (4e8 - 2. / 3. * 2e8), tolerance(1e-12));
-  BOOST_TEST(point.response.wave_speed == std::sqrt((4e8 + 4. / 3. * 2e8) / point.density), tolerance(1e-12));
-  // nothing is lost but what belongs to Hooke's law per present volume: a third of the volume change of 1 % in the shear
-  BOOST_TEST(std::abs(point.dissipated) < 3.4e-3 * point.work);
-  BOOST_TEST(point.response.stored / point.density + point.dissipated == point.work, tolerance(1e-12));
+  const double J = std::exp(-1e-2);
+  BOOST_TEST(point.stress[2] == -1e-2 * (4e8 + 4. / 3. * 2e8 / J), tolerance(1e-12));
+  BOOST_TEST(point.stress[0] == -1e-2 * (4e8 - 2. / 3. * 2e8 / J), tolerance(1e-12));
+  BOOST_TEST(point.response.wave_speed == std::sqrt(4e8 / point.density + 4. / 3. * 2e8 / 1800.), tolerance(1e-12));
+  BOOST_TEST(std::abs(point.dissipated) < 1e-13 * point.work);
+  BOOST_TEST(point.response.stored / point.density == point.work,
+             tolerance(1e-5)); // ten steps of second order in the pressure
 }
 
-// In uniaxial strain beyond yield the deviator is two thirds of the yield stress, whatever the equation of state; with hardening
-// closed form of the radial return: q = (3 G eps' ...)/(...) for proportional loading. Round-off.
+// In uniaxial strain beyond yield the difference of the stresses is the yield stress, whatever the equation of state; with hardening the
+// closed form of the radial return for proportional loading. Round-off.
 BOOST_AUTO_TEST_CASE(mises_uniaxial)
 {
   using Law = EquationOfStateWithStrength<MieGrueneisen, MisesStrength>;
@@ -110,26 +112,32 @@ BOOST_AUTO_TEST_CASE(mises_uniaxial)
   for (int i = 0; i < 10; ++i)
     point.strain(uniaxial(-1e-3));
   BOOST_TEST(point.stress[0] - point.stress[2] == 1e6, tolerance(1e-10));
-  // plastic strain: equivalent strain 2/3 |eps| less the elastic part Y/(3 G)
-  BOOST_TEST(point.history.shear.plastic_strain == 1e-2 * 2. / 3. - 1e6 / 3e9, tolerance(1e-10));
-  // plastic work: Y times plastic strain per volume; the density changes by 1 %
-  const double plastic = 1e6 * point.history.shear.plastic_strain / (.5 * (1800. + point.density));
-  const double elastic = 1e6 * 1e6 / (6. * 1e9) / 1800.;
-  BOOST_TEST(point.history.volume.energy > plastic);
+  // plastic strain: equivalent strain 2/3 |eps| less the elastic part J Y/(3 G)
+  const double J = std::exp(-1e-2), elastic_part = J * 1e6 / 3e9;
+  BOOST_TEST(point.history.shear.plastic_strain == 1e-2 * 2. / 3. - elastic_part, tolerance(1e-10));
+  // plastic work per reference volume: int J Y d ep, ep = -2/3 ln J - J Y/(3 G), from yield to the end; fine steps, because the mean
+  // stress of the step that yields is not Y
+  LawPoint<Law> fine(law);
+  for (int i = 0; i < 10000; ++i)
+    fine.strain(uniaxial(-1e-6));
+  const double at_yield = std::exp(-5e-4),
+               plastic  = 1e6 * 2. / 3. * (at_yield - J) - 1e12 / 6e9 * (J * J - at_yield * at_yield);
+  BOOST_TEST(fine.dissipated == plastic / 1800., tolerance(1e-4)); // ln J at yield to second order in Y/G
+  BOOST_TEST(point.history.heat == point.dissipated, tolerance(1e-12));
+  // all work is internal energy: of the pressure, and of the shear
+  BOOST_TEST(point.history.volume.energy + J * J * 1e12 / (6. * 1e9) / 1800. == point.work, tolerance(1e-10));
   BOOST_TEST(point.response.stored / point.density + point.dissipated == point.work, tolerance(1e-12));
-  BOOST_TEST(point.history.volume.energy == point.work, tolerance(1e-10)); // all work is internal energy
-  BOOST_TEST_MESSAGE("plastic " << plastic << " elastic " << elastic << " J/kg");
 
   law.strength.hardening = 5e8;
   LawPoint<Law> hard(law);
   for (int i = 0; i < 10; ++i)
     hard.strain(uniaxial(-1e-3));
-  // q = Y0 + H ep and q = 3 G (2/3 eps - ep)
-  const double ep = (3e9 * 2e-2 / 3. - 1e6) / (3e9 + 5e8);
+  // q = Y0 + H ep and J q = 3 G (2/3 eps - ep)
+  const double ep = (3e9 * 2e-2 / 3. - J * 1e6) / (3e9 + J * 5e8);
   BOOST_TEST(hard.history.shear.plastic_strain == ep, tolerance(1e-10));
   BOOST_TEST(hard.stress[0] - hard.stress[2] == 1e6 + 5e8 * ep, tolerance(1e-10));
 
-  // n = 0.3, same condition: 3 G (2/3 eps - ep) = Y0 + H ep^n
+  // n = 0.3, same condition: 3 G (2/3 eps - ep) = J (Y0 + H ep^n)
   law.strength.hardening          = 5e6;
   law.strength.hardening_exponent = .3;
   LawPoint<Law> curved(law);
@@ -137,17 +145,30 @@ BOOST_AUTO_TEST_CASE(mises_uniaxial)
     curved.strain(uniaxial(-1e-3));
   const double p_s = curved.history.shear.plastic_strain, q_s = curved.stress[0] - curved.stress[2];
   BOOST_TEST(q_s == 1e6 + 5e6 * std::pow(p_s, .3), tolerance(1e-10));
-  BOOST_TEST(q_s == 3e9 * (2e-2 / 3. - p_s), tolerance(1e-10));
+  BOOST_TEST(J * q_s == 3e9 * (2e-2 / 3. - p_s), tolerance(1e-10));
   law.strength.hardening_exponent = 1.;
 
-  // two decades above the reference rate, C = 0.1: 1 + 0.1 ln 100
-  law.strength.hardening        = 0.;
-  law.strength.rate_coefficient = .1;
-  law.strength.reference_rate   = 2. / 3. * 1e-3 / 1e-6 / 100.;
+  // plastic strain about two decades above the reference rate, C = 0.1
+  law.strength.hardening           = 0.;
+  law.strength.rate.coefficient    = .1;
+  law.strength.rate.reference_rate = 2. / 3. * 1e-3 / 1e-6 / 100.;
   LawPoint<Law> fast(law);
+  double        before = 0.;
   for (int i = 0; i < 10; ++i)
-    fast.strain(uniaxial(-1e-3), 1e-6);
-  BOOST_TEST(fast.stress[0] - fast.stress[2] == 1e6 * (1. + .1 * std::log(100.)), tolerance(1e-10));
+    {
+      before = fast.history.shear.plastic_strain;
+      fast.strain(uniaxial(-1e-3), 1e-6);
+    }
+  const double rate = (fast.history.shear.plastic_strain - before) / 1e-6 / law.strength.rate.reference_rate;
+  BOOST_TEST(rate == 100., tolerance(1e-3)); // J Y/(3 G) falls on the way
+  BOOST_TEST(fast.stress[0] - fast.stress[2] == 1e6 * (1. + .1 * std::log(rate)), tolerance(1e-10));
+  // at rest the stress goes down to the static strength, q = Y (1 + C ln(ep_dot/rate_0)) all the way: 3 G dep = -dq, explicit Euler
+  double q = fast.stress[0] - fast.stress[2], time = 0.;
+  for (; time < 1e-3; time += 1e-7)
+    q -= 1e-7 * 3e9 / J * law.strength.rate.reference_rate * std::exp((q / 1e6 - 1.) / .1);
+  for (int i = 0; i < 10000; ++i)
+    fast.strain(SymTensor<double>(), 1e-7);
+  BOOST_TEST(fast.stress[0] - fast.stress[2] == std::max(1e6, q), tolerance(1e-3));
 }
 
 // Friction: sqrt(J2) = k + 3 alpha p up to the largest strength, times the rate factor; none in a gap; slow loading keeps the
@@ -175,56 +196,82 @@ BOOST_AUTO_TEST_CASE(friction)
   BOOST_TEST(pressure(point.stress) == -1e5, tolerance(1e-12));
   BOOST_TEST(root(point) < 1.); // no strength: 1e4 - 0.6 1e5 < 0
 
-  // 1 + 0.02 ln 1000 = 1.14: the elastic trial exceeds the static strength by no more than 16 % on this path
-  law.strength.rate_coefficient = .02;
+  // with the plastic rate of the last step
+  law.strength.rate.coefficient = .02;
   for (const double ratio : {.01, 1., 1000.})
     {
-      law.strength.reference_rate = 2. / 3. * 1e-3 / 1e-6 / ratio;
+      law.strength.rate.reference_rate = 2. / 3. * 1e-3 / 1e-6 / ratio;
       LawPoint<Law> rated(law);
+      double        before = 0.;
       for (int i = 0; i < 60; ++i)
-        rated.strain(uniaxial(-1e-3), 1e-6);
-      const double F = std::min(2e7, 1e4 + .6 * pressure(rated.stress));
-      BOOST_TEST(root(rated) == F * (1. + .02 * std::max(0., std::log(ratio))), tolerance(1e-12));
+        {
+          before = rated.history.shear.plastic_strain;
+          rated.strain(uniaxial(-1e-3), 1e-6);
+        }
+      const double F    = std::min(2e7, 1e4 + .6 * pressure(rated.stress)),
+                   rate = (rated.history.shear.plastic_strain - before) / 1e-6 / law.strength.rate.reference_rate;
+      BOOST_TEST(rate < ratio);       // a part is elastic
+      BOOST_TEST(rate > .05 * ratio); // friction: the strength grows with the pressure, most of the strain is elastic
+      BOOST_TEST(root(rated) == F * (1. + .02 * std::max(0., std::log(rate))), tolerance(1e-12));
     }
 }
 
-// What is stored and what is dissipated make the work of the step, for every law, and no wave is faster than the bound. A closed cycle
-// of a fluid gives no energy; tolerance: trapezoidal rule in steps of 0.05 %, across the tension limit.
+namespace
+{
+/// Of a random path of four legs that ends where it began, in steps of one @p n-th of a leg.
+struct Ledgers
+{
+  double gain = 0., gap = 0.; ///< energy won, and |work - stored - dissipated|, both of the largest work on the way
+};
+template <typename Law>
+Ledgers random_path(const Law &law, const unsigned int path, const int n)
+{
+  std::mt19937                           generator(path);
+  std::uniform_real_distribution<double> number(-1., 1.);
+  LawPoint<Law>                          point(law);
+  double                                 largest = 0.;
+  SymTensor<double>                      total;
+  for (int leg = 0; leg < 4; ++leg)
+    {
+      SymTensor<double> increment;
+      for (int k = 0; k < 6; ++k)
+        increment[k] = leg < 3 ? .02 * number(generator) - (k < 3 && leg == 0 ? .02 : 0.) : -total[k];
+      total += increment;
+      for (int i = 0; i < n; ++i)
+        {
+          point.strain(increment * (1. / n), 1e-3 / n);
+          BOOST_TEST_REQUIRE(point.response.wave_speed <= law.wave_speed_bound() * 1.001);
+          largest = std::max(largest, std::abs(point.work));
+        }
+    }
+  return {-point.work / largest,
+          std::abs(point.response.stored / point.density + point.dissipated - point.work) / largest};
+}
+} // namespace
+
+// Work is what is stored and what is dissipated: to round-off where the energy of the volume is integrated with its pressure, to second
+// order in the step elsewhere. No closed path wins energy; what seems to be won is the error of the mean pressure, and falls in the same way.
 BOOST_AUTO_TEST_CASE(random_paths)
 {
   using Kind = SelectedStrength::Kind;
   for (const Kind kind : {Kind::none, Kind::elastic, Kind::mises, Kind::friction})
     for_every_equation_of_state([kind](const auto &eos, double, double) {
-      using Law = EquationOfStateWithStrength<std::decay_t<decltype(eos)>>;
-      const Law                              law{eos, selected(kind)};
-      std::mt19937                           generator(3);
-      std::uniform_real_distribution<double> number(-1., 1.);
-      double                                 worst = 0.;
-      for (int path = 0; path < 5; ++path)
-        {
-          LawPoint<Law>     point(law);
-          double            largest = 0.;
-          SymTensor<double> total;
-          for (int leg = 0; leg < 4; ++leg)
-            {
-              SymTensor<double> increment;
-              for (int k = 0; k < 6; ++k)
-                increment[k] = leg < 3 ? .02 * number(generator) - (k < 3 && leg == 0 ? .02 : 0.) : -total[k];
-              total += increment;
-              for (int i = 0; i < 200; ++i)
-                {
-                  point.strain(increment * (1. / 200.));
-                  BOOST_TEST_REQUIRE(point.response.wave_speed <= law.wave_speed_bound() * 1.001);
-                }
-              largest = std::max(largest, std::abs(point.work));
-            }
-          // round-off of sums whose terms are as large as the largest work on the path
-          BOOST_TEST_REQUIRE(std::abs(point.response.stored / point.density + point.dissipated - point.work) <
-                             1e-11 * largest);
-          worst = std::min(worst, point.work / largest);
-        }
-      if (kind == Kind::none)
-        BOOST_TEST(worst > -1e-2);
+      using EOS = std::decay_t<decltype(eos)>;
+      const EquationOfStateWithStrength<EOS> law{eos, selected(kind)};
+      double                                 gain[2] = {}, gap[2] = {};
+      for (unsigned int path = 1; path <= 10; ++path)
+        for (const int level : {0, 1})
+          {
+            const Ledgers ledgers = random_path(law, path, level == 0 ? 200 : 800);
+            gain[level]           = std::max(gain[level], ledgers.gain);
+            gap[level]            = std::max(gap[level], ledgers.gap);
+          }
+      BOOST_TEST_MESSAGE(EOS::name << ", strength " << int(kind) << ": gain " << gain[0] << ' ' << gain[1] << ", gap "
+                                   << gap[0] << ' ' << gap[1]);
+      BOOST_TEST(gap[1] < (EOS::uses_energy ? 1e-9 : std::max(1e-10, gap[0] / 8.))); // second order: 1/16
+      BOOST_TEST(gap[1] < 1e-3);
+      BOOST_TEST(gain[1] < std::max(1e-9, gain[0] / 8.));
+      BOOST_TEST(gain[1] < 1e-3);
     });
 }
 
@@ -237,14 +284,15 @@ BOOST_AUTO_TEST_CASE(lanes_equal_scalar)
     for_every_equation_of_state([kind](const auto &eos, double, double) {
       using Law = EquationOfStateWithStrength<std::decay_t<decltype(eos)>>;
       Law law{eos, selected(kind)};
-      law.strength.friction.rate_coefficient = law.strength.mises.rate_coefficient = .05;
+      law.strength.friction.rate.coefficient = law.strength.mises.rate.coefficient = .05;
       law.strength.mises.hardening_exponent                                        = .5;
       std::mt19937                                     generator(4);
       std::uniform_real_distribution<double>           number(-1., 1.);
       std::vector<LawPoint<Law>>                       scalar(native_lanes, LawPoint<Law>(law));
       const Point<std::decay_t<decltype(eos)>, Number> start(eos); // spreads the initial history over the lanes
       typename Law::template History<Number>           history;
-      history.volume = start.history;
+      history.volume              = start.history;
+      history.shear.shear_modulus = Number(law.initial_history().shear.shear_modulus);
       SymTensor<Number> stress;
       Number            density(law.density());
       for (int step = 0; step < 100; ++step)

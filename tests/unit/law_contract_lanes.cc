@@ -69,10 +69,11 @@ void compare_lanes(const Law &law)
             lane_stress[k] = stress[k * W + l];
           for (unsigned int k = 0; k < n_history; ++k)
             lane_history.push_back(history[k * W + l]);
-          worst         = std::max(worst, difference(lane_stress, r.stress) / s);
-          worst_history = std::max(worst_history,
-                                   relative_difference(history_of<typename Law::template History<double>>(lane_history),
-                                                       sample.history));
+          worst = std::max(worst, difference(lane_stress, r.stress) / s);
+          worst_history =
+            std::max(worst_history,
+                     relative_difference(law, history_of<typename Law::template History<double>>(lane_history),
+                                         sample.history));
           worst_energy =
             std::max(worst_energy, (std::abs(stored[l] - r.stored) + std::abs(dissipated[l] - r.dissipated)) /
                                      (s * (s / modulus(law))));

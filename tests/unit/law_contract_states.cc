@@ -3,6 +3,7 @@
 #include <arenite/materials/law_list.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -49,14 +50,17 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(nothing_happens_without_a_cause, Law, Laws)
         none.dt                         = 1e-300;
         auto       h                    = sample.history;
         const auto r                    = law.update(sample.stress, none, h);
-        stress  = std::max(stress, difference(r.stress, sample.stress) / (size(sample.stress) + 1e-9 * modulus(law)));
-        history = std::max(history, relative_difference(h, sample.history));
+        // a pressure that is found as a root of the density has the digits of the density
+        const double jump = difference(r.stress, sample.stress);
+        if (jump > 4. * std::numeric_limits<double>::epsilon() * modulus(law))
+          stress = std::max(stress, jump / (size(sample.stress) + 1e-9 * modulus(law)));
+        history = std::max(history, relative_difference(law, h, sample.history));
 
         SymTensor<double> s = sample.stress;
         h                   = sample.history;
         law.after_transfer(s, h);
-        transfer =
-          std::max({transfer, difference(s, sample.stress) / modulus(law), relative_difference(h, sample.history)});
+        transfer = std::max(
+          {transfer, difference(s, sample.stress) / modulus(law), relative_difference(law, h, sample.history)});
       }
     BOOST_TEST_MESSAGE(Law::name << ": zero increment " << stress << ", history " << history << ", transfer "
                                  << transfer);
@@ -83,7 +87,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(isotropy, Law, Laws)
         step.strain        = rotate(step.strain, Q);
         const auto rotated = law.update(rotate(sample.stress, Q), step, h_rotated);
         worst              = std::max(worst, difference(rotated.stress, rotate(r.stress, Q)) / scale(law, sample));
-        worst_history      = std::max(worst_history, relative_difference(rotated_history(h, Q), h_rotated));
+        worst_history      = std::max(worst_history, relative_difference(law, rotated_history(h, Q), h_rotated));
       }
     BOOST_TEST_MESSAGE(Law::name << ": rotation " << worst << ", history " << worst_history);
     BOOST_TEST(worst < 1e-11);

@@ -53,10 +53,11 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(tangent_by_differentiable_numbers, Law, Laws)
                        r_minus = law.update(sample.stress, minus, h_minus);
             for (int i = 0; i < 6; ++i)
               {
-                const double difference = (r_plus.stress[i] - r_minus.stress[i]) / (2. * h);
-                error                   = std::max(error, std::abs(ad.stress[i].dx(k) - difference) / modulus(law));
-                one_sided = std::max(one_sided, std::abs(r_plus.stress[i] - 2. * r.stress[i] + r_minus.stress[i]) / h /
-                                                  modulus(law));
+                // of a central difference across a kink, half of the jump of the tangent is error
+                const double difference = (r_plus.stress[i] - r_minus.stress[i]) / (2. * h),
+                             jump       = std::abs(r_plus.stress[i] - 2. * r.stress[i] + r_minus.stress[i]) / h;
+                error     = std::max(error, (std::abs(ad.stress[i].dx(k) - difference) - 0.5 * jump) / modulus(law));
+                one_sided = std::max(one_sided, jump / modulus(law));
               }
           }
         for (int i = 0; i < 6; ++i)

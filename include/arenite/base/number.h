@@ -262,6 +262,13 @@ ARENITE_INLINE V logarithm(const V &a)
 {
   return NumberFunctions<V>::logarithm(a);
 }
+/// ln(1 + a) without cancellation near zero: ln(u) a/(u - 1) with the rounded u = 1 + a.
+template <typename V>
+ARENITE_INLINE V logarithm_one_plus(const V &a)
+{
+  const V u = V(1.) + a, rounded = u - V(1.);
+  return Arenite::select<V>(rounded == V(0.), a, V(Arenite::logarithm<V>(u) * (a / rounded)));
+}
 
 /// a^n for a >= 0 with the same exponent in all lanes; cheap for n = 0, 1/2, 1, 3/2, 2, 3.
 template <typename V>
@@ -297,5 +304,16 @@ template <typename V>
 ARENITE_INLINE V absolute(const V &a)
 {
   return Arenite::select<V>(a < V(0.), V(-a), a);
+}
+
+/// e^a - 1 - a to full relative accuracy: Taylor's series below 1/2, where the terms cancel.
+template <typename V>
+ARENITE_INLINE V exponential_remainder(const V &a)
+{
+  V series(1.);
+  for (int k = 15; k > 2; --k)
+    series = V(1.) + a * V(1. / k) * series;
+  return Arenite::select<V>(Arenite::absolute<V>(a) < V(.5), V(V(.5) * a * a * series),
+                            V(Arenite::exponential_minus_one<V>(a) - a));
 }
 } // namespace Arenite

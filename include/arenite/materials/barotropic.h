@@ -31,13 +31,15 @@ struct LinearCompression
   template <typename Number>
   EquationOfStateResponse<Number> update(const VolumeChange<Number> &change, NoHistory<Number> &) const
   {
-    const Number                    strain       = Arenite::logarithm<Number>(change.density / Number(density));
+    const Number strain =
+      Arenite::logarithm_one_plus<Number>((change.density - Number(density)) * Number(1. / density));
     const double                    limit_strain = -tension_limit / bulk_modulus;
     const Number                    K(bulk_modulus), density_at_limit(density * std::exp(limit_strain));
     const Number                    closed = Arenite::max<Number>(strain, Number(limit_strain));
     EquationOfStateResponse<Number> response{
       K * strain, K, logarithmic_energy<Number>(K, closed, Arenite::max<Number>(change.density, density_at_limit))};
-    limit_tension<Number>(response, tension_limit, change.density, density_at_limit, bulk_sound_speed_bound());
+    limit_tension<Number>(response, tension_limit, change.density,
+                          Number((density_at_limit - change.density) / density_at_limit), Number(K / density_at_limit));
     return response;
   }
 
@@ -80,7 +82,7 @@ struct PolynomialCompression
   template <typename Number>
   EquationOfStateResponse<Number> update(const VolumeChange<Number> &change, NoHistory<Number> &) const
   {
-    const Number mu  = change.density * Number(1. / density) - Number(1.);
+    const Number mu  = (change.density - Number(density)) * Number(1. / density);
     const double K_t = tension_modulus > 0. ? tension_modulus : K1;
     const Number a = Number(K1), b = Number(K2), c = Number(K3);
     const auto   compressed = mu > Number(0.);
@@ -94,7 +96,8 @@ struct PolynomialCompression
 
     EquationOfStateResponse<Number> response{pressure, slope * ratio,
                                              stored<Number>(Arenite::max<Number>(mu, mu_limit), K_t)};
-    limit_tension<Number>(response, tension_limit, change.density, density_at_limit, bulk_sound_speed_bound());
+    limit_tension<Number>(response, tension_limit, change.density,
+                          Number((density_at_limit - change.density) / density_at_limit), Number(K_t / density));
     return response;
   }
 

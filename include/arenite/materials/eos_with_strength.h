@@ -7,15 +7,22 @@
 
 namespace Arenite
 {
-/// An equation of state for the pressure and a strength for the deviator, as one law: sigma = s - p I.
+/// An equation of state for the pressure and a strength for the deviator, as one law: sigma = tau/J - p I, J = rho_0/rho.
 ///
-/// Energy: the deviatoric work of the step per mass, (s_n + s_{n+1})/2 : d eps_dev (1/rho_n + 1/rho_{n+1})/2, heats the equation of
-/// state. Where the strength depends on pressure or modulus and these on the energy, a first pass with the work of s_n gives both;
-/// the second pass of the equation of state has the exact work. The strength then belongs to a pressure that misses the final one
-/// by Gamma rho times the change of the work, which is of second order in the step.
+/// Energy per mass. Work of a step: -(p_n + p_{n+1})/2 (1/rho_{n+1} - 1/rho_n) + (tau_n + tau_{n+1})/2 : d eps_dev / rho_0, and
 ///
-/// The answer's stored energy is that of the volume change, as the equation of state gives it, and J2/(2 G). What the step dissipates
-/// is its work with the mean stress less what is stored in addition: both together are always the work of the step.
+///   work = d(stored) + dissipated,     stored = E(rho, history) + tau:tau/(4 G rho_0)
+///
+/// The elastic shear energy does not depend on the volume, so that the pressure is that of the equation of state alone. Dissipated are
+/// the plastic work (tau_n + tau_{n+1})/2 : d e_p, what the growth of G takes, tau:tau/4 (1/G_n - 1/G_{n+1}), and the compaction as the
+/// equation of state gives it; none is defined as what is left of the others. The shear ledger closes to round-off, that of the volume to
+/// second order in the step where E is an integral of the curve.
+///
+/// Equations of state with energy are adiabatic: E is their internal energy, which receives all work of the pressure (crushed pores and
+/// shock heat included) to round-off, and the plastic work as heat. That heat is counted as dissipated and not again as stored.
+///
+/// Where a strength needs the pressure or the modulus of an equation of state with energy, a first pass without the plastic heat gives
+/// them; heat only raises both, by Gamma rho times the plastic work of the step, so that the stress stays inside of its surface.
 template <typename EOS, typename Strength = SelectedStrength>
 struct EquationOfStateWithStrength
 {
@@ -27,14 +34,15 @@ struct EquationOfStateWithStrength
   {
     typename EOS::template History<Number>      volume;
     typename Strength::template History<Number> shear;
-    Number                                      stored = Number(0.); ///< [J/kg]
+    Number                                      heat = Number(0.); ///< of the plastic work [J/kg]; with energy only
 
     template <typename F>
     void for_each(F &&f)
     {
       volume.for_each(f);
       shear.for_each(f);
-      f("stored energy", stored);
+      if constexpr (EOS::uses_energy)
+        f("plastic heat", heat);
     }
   };
 
@@ -57,7 +65,9 @@ struct EquationOfStateWithStrength
   {
     History<double> history;
     history.volume = equation_of_state.initial_history();
-    history.shear  = strength.initial_history();
+    auto rest      = history.volume;
+    history.shear  = strength.initial_history(
+       equation_of_state.update(VolumeChange<double>{density(), density(), 0., 0.}, rest).bulk_modulus);
     return history;
   }
 
@@ -65,44 +75,54 @@ struct EquationOfStateWithStrength
   Response<Number> update(const SymTensor<Number> &stress_n, const PointIncrement<Number> &increment,
                           History<Number> &history) const
   {
-    const SymTensor<Number> s_n = deviator(stress_n), strain = deviator(increment.strain);
-    const Number            p_n = pressure(stress_n), volume_n = Number(1.) / increment.density_old,
-                 volume = Number(1.) / increment.density, mean_volume = Number(.5) * (volume_n + volume);
+    const Number one(1.), per_mass(1. / density()), J_n = Number(density()) / increment.density_old,
+                                                    J = Number(density()) / increment.density, p_n = pressure(stress_n),
+                                                    G_n = history.shear.shear_modulus;
+    const SymTensor<Number> tau_n = deviator(stress_n) * J_n, strain = deviator(increment.strain);
 
-    // (i) pressure and modulus for the strength
+    // (i) pressure and modulus, as far as they are needed for the strength
     VolumeChange<Number>            change{increment.density_old, increment.density, p_n, Number(0.)};
-    ShearIncrement<Number>          shear{s_n, strain, p_n, Number(0.), increment.dt};
     EquationOfStateResponse<Number> volumetric{p_n, Number(0.), Number(0.)};
     if constexpr (!EOS::uses_energy)
       volumetric = equation_of_state.update(change, history.volume);
     else if (strength.uses_equation_of_state())
       {
-        auto trial        = history.volume;
-        change.other_work = contract(s_n, strain) * mean_volume;
-        volumetric        = equation_of_state.update(change, trial);
+        auto trial = history.volume;
+        volumetric = equation_of_state.update(change, trial);
       }
-    shear.pressure     = volumetric.pressure;
-    shear.bulk_modulus = volumetric.bulk_modulus;
 
-    // (ii) deviator, (iii) its work heats
-    const ShearResponse<Number> deviatoric    = strength.update(shear, history.shear);
-    const Number                work_of_shear = Number(.5) * contract(s_n + deviatoric.stress, strain) * mean_volume;
+    // (ii) deviator, (iii) its plastic work heats; a step that reverses the load may count it negative, by its mean stress
+    const ShearResponse<Number> shear =
+      strength.update(ShearIncrement<Number>{tau_n, strain, volumetric.pressure, Number(volumetric.bulk_modulus * J), J,
+                                             increment.dt},
+                      history.shear);
     if constexpr (EOS::uses_energy)
       {
-        change.other_work = work_of_shear;
-        volumetric        = equation_of_state.update(change, history.volume);
+        change.heat  = Arenite::max<Number>(Number(0.), Number(shear.dissipated * per_mass));
+        history.heat = history.heat + change.heat;
+        volumetric   = equation_of_state.update(change, history.volume);
       }
 
-    Response<Number> response;
-    response.stress = deviatoric.stress - spherical(volumetric.pressure);
-    response.wave_speed =
-      Arenite::square_root<Number>((volumetric.bulk_modulus + Number(4. / 3.) * deviatoric.shear_modulus) * volume);
+    // (iv) the modulus grows, the ledgers are written
+    const Number tau_squared = contract(shear.stress, shear.stress);
+    const Number G = strength.template grown_modulus<Number>(shear.shear_modulus, Number(volumetric.bulk_modulus * J));
+    const auto   sheared = G > Number(0.);
+    const Number growth =
+      Arenite::select<Number>(sheared,
+                              Number(Number(.25) * (contract(tau_n, tau_n) * (one / G_n - one / shear.shear_modulus) +
+                                                    tau_squared * (one / shear.shear_modulus - one / G))),
+                              Number(0.));
+    const Number shear_energy   = Arenite::select<Number>(sheared, Number(Number(.25) * tau_squared / G), Number(0.));
+    history.shear.shear_modulus = G;
 
-    const Number stored = volumetric.stored + deviatoric.stored * volume;
-    const Number work   = work_of_shear - Number(.5) * (p_n + volumetric.pressure) * (volume - volume_n);
-    response.stored     = stored * increment.density;
-    response.dissipated = (work - (stored - history.stored)) * increment.density;
-    history.stored      = stored;
+    Response<Number> response;
+    response.stress = shear.stress * Number(one / J) - spherical(volumetric.pressure);
+    response.wave_speed =
+      Arenite::square_root<Number>(volumetric.bulk_modulus / increment.density + Number(4. / 3.) * G * per_mass);
+    response.stored = (volumetric.stored + shear_energy * per_mass - (EOS::uses_energy ? history.heat : Number(0.))) *
+                      increment.density;
+    response.dissipated = (volumetric.dissipated + (shear.dissipated + growth) * per_mass) *
+                          Number(Number(2. * density()) / (J_n + J)); // per mean volume of the step
     return response;
   }
 
@@ -117,6 +137,8 @@ struct EquationOfStateWithStrength
   template <typename Number>
   void after_transfer(SymTensor<Number> &stress, History<Number> &history) const
   {
+    history.shear.shear_modulus =
+      Arenite::max<Number>(history.shear.shear_modulus, Number(initial_history().shear.shear_modulus));
     const Number      p = pressure(stress);
     SymTensor<Number> s = deviator(stress);
     strength.after_transfer(s, p, history.shear);

@@ -11,10 +11,10 @@ namespace Arenite
 template <typename Number>
 struct VolumeChange
 {
-  Number density_old;             ///< at t_n [kg/m^3]
-  Number density;                 ///< at t_{n+1} [kg/m^3]
-  Number pressure_old;            ///< at t_n, compression positive [Pa]
-  Number other_work = Number(0.); ///< deviatoric and viscous work of the step [J/kg]
+  Number density_old;       ///< at t_n [kg/m^3]
+  Number density;           ///< at t_{n+1} [kg/m^3]
+  Number pressure_old;      ///< at t_n, compression positive [Pa]
+  Number heat = Number(0.); ///< plastic and viscous work of the step [J/kg]
 };
 
 /// What it answers, at t_{n+1}.
@@ -23,13 +23,15 @@ struct EquationOfStateResponse
 {
   Number pressure;     ///< compression positive, zero at rest [Pa]
   Number bulk_modulus; ///< rho c^2 of the fastest small disturbance, which is unloading where that is stiffer [Pa]
-  Number stored;       ///< recoverable energy of the volume change [J/kg]
+  Number
+    stored; ///< energy of the volume change, zero at rest: recoverable; with uses_energy all of it, heat included [J/kg]
+  Number dissipated = Number(0.); ///< by the compaction of the step [J/kg]; nothing with uses_energy, where it is heat
 };
 
 // An equation of state is a struct without a base class that knows no mesh:
 //
 //   static constexpr const char *name, *description;
-//   static constexpr bool uses_energy;                              // pressure depends on VolumeChange::other_work
+//   static constexpr bool uses_energy;                              // energy is a variable: VolumeChange::heat raises the pressure
 //   template <typename Number> struct History { ...; for_each(f); };
 //   void declare_parameters(Parameters &);
 //   void finalize(const Parameters &);                              // checks and derived constants
@@ -81,28 +83,22 @@ ShockState shock_state(double reference_density, double density, double pressure
 /// Energy per mass that a logarithmic spring p = K ln(rho / rho_z) gives back until p = 0 [J/kg]:
 ///
 ///   int_{rho_z}^{rho} p drho / rho^2 = K (q - 1 - ln q) / rho,   q = rho / rho_z
-///
-/// which is p^2 / (2 K rho) to leading order; the series keeps the digits where q is near 1.
 template <typename Number>
 ARENITE_INLINE Number logarithmic_energy(const Number &bulk_modulus, const Number &log_q, const Number &density)
 {
-  const Number &l = log_q;
-  const Number  series =
-    l * l * (Number(1. / 2.) + l * (Number(1. / 6.) + l * (Number(1. / 24.) + l * Number(1. / 120.))));
-  const Number exact = Arenite::exponential<Number>(l) - Number(1.) - l;
-  return bulk_modulus / density * Arenite::select<Number>(Arenite::absolute<Number>(l) < Number(1e-3), series, exact);
+  return bulk_modulus / density * Arenite::exponential_remainder<Number>(log_q);
 }
 
-/// Spall: the pressure does not fall below -T. While the gap is open the modulus is that of the speed @p speed in the opened
-/// volume, so that the time step keeps the stiffness that returns when the gap closes, and the work against T is stored:
-/// the gap gives it back on closing. @p density_at_limit is where p = -T.
+/// Spall: the pressure does not fall below -T. While the gap is open the modulus is that of the bulk sound speed with which it closes,
+/// so that the time step keeps the stiffness that returns, and the work against T is stored: the gap gives it back on closing.
+/// @p opening is 1 - rho/rho_t with the density rho_t at p = -T, @p speed_squared the c^2 there.
 template <typename Number>
 ARENITE_INLINE void limit_tension(EquationOfStateResponse<Number> &response, const double tension_limit,
-                                  const Number &density, const Number &density_at_limit, const double speed)
+                                  const Number &density, const Number &opening, const Number &speed_squared)
 {
   const auto   open     = response.pressure < Number(-tension_limit);
-  const Number opened   = Number(tension_limit) * (Number(1.) / density - Number(1.) / density_at_limit);
-  response.bulk_modulus = Arenite::select<Number>(open, Number(density * Number(speed * speed)), response.bulk_modulus);
+  const Number opened   = Number(tension_limit) / density * opening;
+  response.bulk_modulus = Arenite::select<Number>(open, Number(density * speed_squared), response.bulk_modulus);
   response.stored       = Arenite::select<Number>(open, Number(response.stored + opened), response.stored);
   response.pressure     = Arenite::select<Number>(open, Number(-tension_limit), response.pressure);
 }

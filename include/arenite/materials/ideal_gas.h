@@ -7,10 +7,14 @@
 
 namespace Arenite
 {
-/// Ideal gas: p_abs = (gamma - 1) rho e. The pressure in the answer is above that at rest, because bodies at rest carry no stress.
+/// Ideal gas: p_abs = (gamma - 1) rho e. The pressure p in the answer is above that at rest, p_0, because bodies at rest carry no stress,
+/// and so is the energy: E = e - e_0 + p_0 (1/rho - 1/rho_0), with the work on the surroundings, dE = -p d(1/rho). In these
 ///
-/// The energy balance of a step is linear in the new pressure: no iteration, and one step from rest gives the Hugoniot
-/// p_abs/p_0 = ((gamma+1) rho - (gamma-1) rho_0) / ((gamma+1) rho_0 - (gamma-1) rho). No shock compresses beyond (gamma+1)/(gamma-1).
+///   p = (gamma - 1) rho E + gamma p_0 (rho - rho_0)/rho_0
+///
+/// without differences of large numbers. The energy balance of a step is linear in the new pressure: no iteration, and one step from rest
+/// gives the Hugoniot p_abs/p_0 = ((gamma+1) rho - (gamma-1) rho_0) / ((gamma+1) rho_0 - (gamma-1) rho). No shock compresses beyond
+/// (gamma+1)/(gamma-1).
 struct IdealGas
 {
   static constexpr const char *name        = "ideal gas";
@@ -20,7 +24,7 @@ struct IdealGas
   template <typename Number>
   struct History
   {
-    Number energy = Number(0.); ///< e [J/kg], of the absolute pressure
+    Number energy = Number(0.); ///< E [J/kg]
     template <typename F>
     void for_each(F &&f)
     {
@@ -36,23 +40,22 @@ struct IdealGas
   void declare_parameters(Parameters &);
   void finalize(const Parameters &) const {}
 
-  History<double> initial_history() const { return {initial_energy()}; }
+  History<double> initial_history() const { return {}; }
   double          reference_density() const { return density; }
-  double          initial_energy() const { return initial_pressure / ((gamma - 1.) * density); }
 
   template <typename Number>
   EquationOfStateResponse<Number> update(const VolumeChange<Number> &change, History<Number> &history) const
   {
-    const Number half_dv = Number(.5) * (Number(1.) / change.density - Number(1.) / change.density_old);
-    const Number old = change.pressure_old + Number(initial_pressure), stiffness = Number(gamma - 1.) * change.density;
+    const Number half_dv   = Number(.5) * (Number(1.) / change.density - Number(1.) / change.density_old);
+    const Number stiffness = Number(gamma - 1.) * change.density,
+                 cold      = Number(gamma * initial_pressure / density) * (change.density - Number(density)),
+                 vacuum(-initial_pressure);
     // max(): a step beyond the largest shock compression is out of range, but must not turn the pressure negative
     const Number implicit = Arenite::max<Number>(Number(1.) + stiffness * half_dv, Number(1e-3));
-    history.energy = Arenite::max<Number>(Number(0.), (history.energy + change.other_work - old * half_dv) / implicit);
-    const Number absolute = stiffness * history.energy;
-    // all work is recoverable; the part against the pressure at rest belongs to the surroundings
-    const Number surroundings = Number(initial_pressure) * (Number(1.) / change.density - Number(1. / density));
-    return {absolute - Number(initial_pressure), Number(gamma) * absolute,
-            history.energy - Number(initial_energy()) + surroundings};
+    const Number energy   = history.energy + change.heat - change.pressure_old * half_dv;
+    const Number p        = Arenite::max<Number>(vacuum, Number((stiffness * energy + cold) / implicit));
+    history.energy        = energy - p * half_dv;
+    return {p, Number(gamma) * (p - vacuum), history.energy};
   }
 
   /// Behind a shock of the largest pressure.

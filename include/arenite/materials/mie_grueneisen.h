@@ -98,21 +98,17 @@ struct MieGrueneisen
                  limit(-tension_limit);
     // max(): a step that expands or compresses several times over is out of range, but must not change the sign of the pressure
     const Number implicit = Arenite::max<Number>(Number(1.) + T * half_dv, Number(.1));
-    const Number energy =
-      (history.energy + change.other_work - (change.pressure_old + curve.pressure) * half_dv) / implicit;
+    const Number energy = (history.energy + change.heat - (change.pressure_old + curve.pressure) * half_dv) / implicit;
     const Number closed = curve.pressure + T * energy, p = Arenite::max<Number>(closed, limit);
     history.energy =
       Arenite::select<Number>(closed < limit,
-                              Number(history.energy + change.other_work - (change.pressure_old + limit) * half_dv),
-                              energy);
+                              Number(history.energy + change.heat - (change.pressure_old + limit) * half_dv), energy);
     history.at_limit =
       Arenite::select<Number>(Number(1.) - Number(density) / rho > Number(largest_chi()), Number(1.), history.at_limit);
 
-    const Number                    K = modulus<Number>(rho, curve.slope, p);
-    EquationOfStateResponse<Number> response{closed, K, Number(.5) * p * p / (K * rho)};
-    const Number rho_t = rho * (Number(1.) + (p - closed) / K); // first order, see tabulated compaction
-    limit_tension<Number>(response, tension_limit, rho, rho_t, sound_speed);
-    return response;
+    const Number K = modulus<Number>(rho, curve.slope, p);
+    return {p, Arenite::select<Number>(closed < limit, Number(rho * Number(sound_speed * sound_speed)), K),
+            history.energy};
   }
 
   /// Behind a shock of the largest pressure, or at the end of tension.

@@ -80,7 +80,7 @@ struct PorousCompaction
   {
     const Number &rho     = change.density, one(1.), thermal(solid.thermal()), limit(-tension_limit), end(crush_end);
     const Number  half_dv = Number(.5) * (one / rho - one / change.density_old);
-    const Number  base    = history.energy + change.other_work - change.pressure_old * half_dv; // e = base - p half_dv
+    const Number  base    = history.energy + change.heat - change.pressure_old * half_dv; // e = base - p half_dv
     const Number  alpha_y = history.distension, p_y = crush_pressure<Number>(alpha_y),
                  a     = elastic_slope<Number>(alpha_y);
     const Number curve = Number((elastic_limit - 1.) / ((crush_end - crush_onset) * (crush_end - crush_onset)));
@@ -128,7 +128,7 @@ struct PorousCompaction
     const Number stiffness =
       (alpha.value * cold.slope + thermal * p / (rho * rho)) / (alpha.value + slope * (p - rho * cold.slope));
     const Number K = rho * Arenite::max<Number>(stiffness, Number(.01 * elastic_speed * elastic_speed));
-    EquationOfStateResponse<Number> response{p, K, Number(.5) * p * p / (K * rho)};
+    EquationOfStateResponse<Number> response{p, K, history.energy};
     response.bulk_modulus =
       Arenite::select<Number>(open, Arenite::min<Number>(K, rho * Number(elastic_speed * elastic_speed)), K);
     return response;

@@ -87,8 +87,9 @@ struct SoilStiffening
     Number pressure(0.);
     if (porous())
       {
-        const Number q = Arenite::min<Number>(rho, Number(compacted_density)) * Number(1. / density);
-        const Number y = Arenite::max<Number>(Number(0.), q - Number(1.)), log_q = Arenite::logarithm<Number>(q);
+        const Number mu =
+          (Arenite::min<Number>(rho, Number(compacted_density)) - Number(density)) * Number(1. / density);
+        const Number y = Arenite::max<Number>(Number(0.), mu), log_q = Arenite::logarithm_one_plus<Number>(mu);
         const int    m      = exponent;
         Number       closed = Number(m % 2 ? -1. : 1.) * log_q, series(0.), power_of_y = y;
         for (int i = 1; i <= m; ++i)
@@ -143,18 +144,27 @@ struct SoilStiffening
   template <typename Number>
   EquationOfStateResponse<Number> update(const VolumeChange<Number> &change, History<Number> &history) const
   {
-    history.density_max = Arenite::max<Number>(history.density_max, change.density);
+    const Number density_max = history.density_max;
+    history.density_max      = Arenite::max<Number>(history.density_max, change.density);
     const Number K_m = modulus<Number>(history.density_max), p_m = first_loading<Number>(history.density_max);
 
     // the branch is a spring of length rho_z without pressure
-    const Number                    from_max = Arenite::logarithm<Number>(change.density / history.density_max);
+    const Number                    from_max = log_ratio(history.density_max, change.density);
     const Number                    strain   = from_max + p_m / K_m; // ln(rho/rho_z)
     const Number                    strain_t = Number(-tension_limit) / K_m;
     const Number                    rho_t    = change.density * Arenite::exponential<Number>(strain_t - strain);
     EquationOfStateResponse<Number> response{p_m + K_m * from_max, K_m,
                                              logarithmic_energy<Number>(K_m, Arenite::max<Number>(strain, strain_t),
                                                                         Arenite::max<Number>(change.density, rho_t))};
-    limit_tension<Number>(response, tension_limit, change.density, rho_t, bulk_sound_speed_bound());
+    limit_tension<Number>(response, tension_limit, change.density,
+                          Number(-Arenite::exponential_minus_one<Number>(strain - strain_t)), Number(K_m / rho_t));
+    if (any_of(history.density_max > density_max))
+      {
+        const Number K_n    = modulus<Number>(density_max);
+        response.dissipated = Number(.5) * (K_m - K_n) *
+                              (loss<Number>(p_m / K_m, history.density_max) +
+                               loss<Number>(first_loading<Number>(density_max) / K_n, density_max));
+      }
     return response;
   }
 
@@ -175,6 +185,19 @@ private:
   {
     const Number square = x * x;
     return m == 1 ? x : m == 2 ? square : m == 3 ? Number(square * x) : Number(square * square);
+  }
+
+  /// What stiffening takes from the spring of the branch, per mass and growth of K: with l = P(rho_m)/K(rho_m)
+  ///
+  ///   dD/dK = (1 + (l - 1) e^l)/rho_m = l^2/(2 rho_m) + ...                                        [J/(kg Pa)], not negative
+  ///
+  /// from dD = P drho/rho^2 - d[K (e^l - 1 - l)/rho] along first loading. A step takes the mean of both ends: second order.
+  template <typename Number>
+  static Number loss(const Number &l, const Number &density_max)
+  {
+    // l e^l - (e^l - 1) = l (e^l - 1 - l) + l^2 - (e^l - 1 - l)
+    const Number remainder = Arenite::exponential_remainder<Number>(l);
+    return (l * remainder + l * l - remainder) / density_max;
   }
 
   /// (K_wg/K') (r^K' - 1); K_wg ln r for K' = 0.

@@ -10,14 +10,20 @@
 
 namespace Arenite
 {
+// Shear in Kirchhoff stress, tau = J s with J = rho_0/rho and the Cauchy deviator s: forces per reference volume. With a constant modulus
+// G, tau_dot = 2 G e_dot is elasticity with the energy U = tau:tau/(4 G) per reference volume, whatever the volume does meanwhile, so
+// that it adds nothing to the pressure and no cycle gives energy. (The same with the Cauchy stress per present volume would: U changes
+// with the volume that it is spread over.) The wave speed sqrt(G/rho_0) is that of the body at rest.
+
 /// What a strength is told about one step. The pressure and the modulus come from the equation of state.
 template <typename Number>
 struct ShearIncrement
 {
-  SymTensor<Number> stress_old;   ///< deviator at t_n [Pa]
+  SymTensor<Number> stress_old;   ///< Kirchhoff deviator tau at t_n [Pa]
   SymTensor<Number> strain;       ///< deviatoric strain increment [-]
   Number            pressure;     ///< at t_{n+1}, compression positive [Pa]
-  Number            bulk_modulus; ///< rho c^2 of the equation of state [Pa]
+  Number            bulk_modulus; ///< rho_0 c^2 of the equation of state, per reference volume, at t_{n+1} [Pa]
+  Number            volume_ratio; ///< J at t_{n+1}
   double            dt;           ///< [s]
 };
 
@@ -25,71 +31,143 @@ struct ShearIncrement
 template <typename Number>
 struct ShearResponse
 {
-  SymTensor<Number> stress;        ///< deviator at t_{n+1} [Pa]
-  Number            shear_modulus; ///< G [Pa]
-  Number            stored;        ///< J2/(2 G) [J/m^3], per present volume
+  SymTensor<Number> stress;        ///< Kirchhoff deviator at t_{n+1} [Pa]
+  Number            shear_modulus; ///< with which the step was computed [Pa]
+  Number            dissipated; ///< plastic work (tau_n + tau_{n+1})/2 : de_p of the step, per reference volume [J/m^3]
 };
 
-/// Equivalent plastic strain, for the strengths that yield.
+/// Memory of the shear.
 template <typename Number>
-struct PlasticHistory
+struct ShearHistory
 {
   Number plastic_strain = Number(0.); ///< int sqrt(2/3 de_p : de_p)
+  Number shear_modulus  = Number(0.); ///< G, which never falls [Pa]
   template <typename F>
   void for_each(F &&f)
   {
     f("plastic strain", plastic_strain);
+    f("shear modulus", shear_modulus);
   }
 };
 
-/// 1 + c ln(max(1, rate/rate_0)) with the effective rate sqrt(2/3 e:e) of the deviatoric strain: Johnson and Cook (1983) and, for
-/// soils, Roger (2015), (2.2.16)-(2.2.17). As printed there the factor falls below 1, and at last below 0, for slow loading; the
-/// static strength is kept instead. One rate per lane.
+/// Y and dY/d ep [Pa], of the Cauchy stress q = sqrt(3 J2).
 template <typename Number>
-Number rate_factor(const SymTensor<Number> &strain, const double dt, const double coefficient,
-                   const double reference_rate)
+struct YieldStress
 {
-  if (!(coefficient > 0. && dt > 0.))
-    return Number(1.);
-  const Number rate =
-    Arenite::square_root<Number>(Number(2. / 3.) * contract(strain, strain)) * Number(1. / (dt * reference_rate));
-  return Number(1.) + Number(coefficient) * Arenite::logarithm<Number>(Arenite::max<Number>(rate, Number(1.)));
+  Number value, slope;
+};
+
+/// Equivalent plastic strain x >= 0 of a step that begins with the trial stress q (Kirchhoff):
+///
+///   3 G x + J Y(ep_n + x) (1 + c ln max(1, x/(dt rate_0))) = q          or 0 if q <= J Y(ep_n)
+///
+/// The left side rises with x: one root. The rate is the plastic one, x/dt: without time nothing flows, and a stress that fast loading
+/// has left above the static strength relaxes. Johnson and Cook (1983); for soils Roger (2015), (2.2.16)-(2.2.17), with the rate of the
+/// whole deviatoric strain, to which the plastic one comes close once it flows. As printed there the factor falls below 1, and at last
+/// below 0, for slow loading; the static strength is kept instead.
+struct RateFactor
+{
+  double coefficient = 0., reference_rate = 1.; ///< c, rate_0 [1/s]
+
+  template <typename Number, typename Yield>
+  Number plastic_step(const Yield &yield, const bool linear, const Number &q, const Number &G, const Number &J,
+                      const double dt) const
+  {
+    const YieldStress<Number> at_start        = yield(Number(0.));
+    const Number              excess_at_start = q - J * at_start.value, three_G = Number(3.) * G;
+    const auto                yields = excess_at_start > Number(0.);
+    const bool                rated  = coefficient > 0. && dt > 0.;
+    if (!any_of(yields))
+      return Number(0.);
+    if (linear && !rated)
+      return Arenite::select<Number>(yields, Number(excess_at_start / (three_G + J * at_start.slope)), Number(0.));
+
+    const auto excess = [&](const Number &x) {
+      const YieldStress<Number> Y = yield(x);
+      Number                    factor(1.), slope_of_factor(0.);
+      if (rated)
+        {
+          const Number threshold(dt * reference_rate), beyond = Arenite::max<Number>(x, threshold);
+          factor          = Number(1.) + Number(coefficient) * Arenite::logarithm<Number>(beyond / threshold);
+          slope_of_factor = Arenite::select<Number>(x > threshold, Number(Number(coefficient) / beyond), Number(0.));
+        }
+      return ValueAndSlope<Number>{three_G * x + J * Y.value * factor - q,
+                                   three_G + J * (Y.slope * factor + Y.value * slope_of_factor)};
+    };
+    // no more than without hardening and rate, and the digits of q
+    const Number largest = Arenite::max<Number>(Number(0.), Number((excess_at_start + Number(1e-15) * q) / three_G));
+    Number       x       = bracketed_root<Number>(excess, Number(0.), largest, Number(Number(.5) * largest),
+                                      Number(Number(1e-13) * largest));
+    // a slow flow, far below `largest`, by x = dt rate_0 exp(((q - 3 G x)/(J Y) - 1)/c): each time 3 G x/(J Y c) of the error stays
+    if (rated)
+      for (int i = 0; i < 2; ++i)
+        {
+          const Number stress = J * yield(x).value;
+          const auto   slow   = three_G * x < Number(.01 * coefficient) * stress;
+          if (!any_of(slow && yields))
+            break;
+          const Number overstress = (q - three_G * x) / stress - Number(1.);
+          const Number flow =
+            Number(dt * reference_rate) * Arenite::exponential<Number>(overstress * Number(1. / coefficient));
+          x = Arenite::select<Number>(slow && overstress > Number(0.), Arenite::min<Number>(flow, largest), x);
+        }
+    return Arenite::select<Number>(yields, x, Number(0.));
+  }
+};
+
+/// The trial stress scaled back: tau = scale tau_trial, de_p = (tau_trial - tau)/(2 G).
+template <typename Number>
+ARENITE_INLINE ShearResponse<Number> scaled_back(const ShearIncrement<Number> &increment,
+                                                 const SymTensor<Number> &trial, const Number &scale, const Number &G)
+{
+  const SymTensor<Number> tau = trial * scale;
+  return {tau, G, Number(.25) * (Number(1.) - scale) / G * contract(increment.stress_old + tau, trial)};
 }
 
-/// J2/(2 G), zero where G is.
-template <typename Number>
-ARENITE_INLINE Number shear_energy(const SymTensor<Number> &deviator, const Number &shear_modulus)
-{
-  const Number J2 = second_invariant(deviator);
-  return Arenite::select<Number>(shear_modulus > Number(0.), Number(J2 / (Number(2.) * shear_modulus)), Number(0.));
-}
-
-/// The elastic shear that all strengths share: a constant modulus, or a constant Poisson ratio with the bulk modulus K of the equation
-/// of state, G = 3 K (1 - 2 nu)/(2 (1 + nu)).
+/// The elastic shear that all strengths share: a constant modulus, or a constant Poisson ratio on first loading,
+///
+///   G = r rho_0 c_m^2,   r = 3 (1 - 2 nu)/(2 (1 + nu)),   c_m the largest bulk sound speed that the point has had
+///
+/// c_m and not c: a modulus that followed the sound speed both ways would return more energy in a cycle of compression and shear than it
+/// received. What G > G_n costs is dissipated: tau:tau/4 (1/G_n - 1/G).
 struct ElasticShear
 {
   static constexpr const char *name = "elastic";
 
   template <typename Number>
-  using History = NoHistory<Number>;
+  using History = ShearHistory<Number>;
 
   double shear_modulus = 0.; ///< [Pa]; used if positive
   double poisson_ratio = 0.; ///< used otherwise
 
   void declare_parameters(Parameters &);
-  void finalize(const Parameters &) const;
+  void finalize(const Parameters &) const; ///< refuses both entries, and none
 
-  NoHistory<double> initial_history() const { return {}; }
-  bool              uses_equation_of_state() const { return !(shear_modulus > 0.); }
-  double            ratio() const { return 1.5 * (1. - 2. * poisson_ratio) / (1. + poisson_ratio); } ///< G/K
-
-  template <typename Number>
-  Number modulus(const Number &bulk_modulus) const
+  /// At rest, with the bulk modulus of the equation of state there.
+  ShearHistory<double> initial_history(const double bulk_modulus) const
   {
-    return shear_modulus > 0. ? Number(shear_modulus) : Number(Number(ratio()) * bulk_modulus);
+    return {0., grown_modulus<double>(0., bulk_modulus)};
+  }
+  bool   uses_equation_of_state() const { return !(shear_modulus > 0.); }
+  double ratio() const { return 1.5 * (1. - 2. * poisson_ratio) / (1. + poisson_ratio); } ///< G/K
+
+  /// G at the end of a step that began with @p G, or was computed with it.
+  template <typename Number>
+  Number grown_modulus(const Number &G, const Number &bulk_modulus) const
+  {
+    return shear_modulus > 0. ? Number(shear_modulus) : Arenite::max<Number>(G, Number(Number(ratio()) * bulk_modulus));
+  }
+  /// G of the step: the mean of both ends.
+  template <typename Number>
+  Number mean_modulus(const ShearIncrement<Number> &increment, const ShearHistory<Number> &history) const
+  {
+    return shear_modulus > 0.
+             ? Number(shear_modulus)
+             : Number(Number(.5) *
+                      (history.shear_modulus + grown_modulus<Number>(history.shear_modulus, increment.bulk_modulus)));
   }
   /// G of a material whose bulk modulus is at most @p bulk_modulus [Pa]
-  double modulus_bound(const double bulk_modulus) const { return modulus<double>(bulk_modulus); }
+  double modulus_bound(const double bulk_modulus) const { return grown_modulus<double>(0., bulk_modulus); }
 
   template <typename Number>
   SymTensor<Number> trial(const ShearIncrement<Number> &increment, const Number &G) const
@@ -97,15 +175,17 @@ struct ElasticShear
     return increment.stress_old + increment.strain * Number(Number(2.) * G);
   }
   template <typename Number>
-  ShearResponse<Number> update(const ShearIncrement<Number> &increment, NoHistory<Number> &) const
+  ShearResponse<Number> update(const ShearIncrement<Number> &increment, ShearHistory<Number> &history) const
   {
-    const Number            G = modulus<Number>(increment.bulk_modulus);
-    const SymTensor<Number> s = trial<Number>(increment, G);
-    return {s, G, shear_energy<Number>(s, G)};
+    const Number G = mean_modulus<Number>(increment, history);
+    return {trial<Number>(increment, G), G, Number(0.)};
   }
   template <typename Number>
-  void after_transfer(SymTensor<Number> &, const Number &, NoHistory<Number> &) const
+  void after_transfer(SymTensor<Number> &, const Number &, ShearHistory<Number> &) const
   {}
+
+private:
+  std::string path;
 };
 
 /// No shear at all: a fluid.
@@ -114,84 +194,82 @@ struct NoStrength
   static constexpr const char *name = "none";
 
   template <typename Number>
-  using History = NoHistory<Number>;
+  using History = ShearHistory<Number>;
 
-  void              declare_parameters(Parameters &) {}
-  void              finalize(const Parameters &) const {}
-  NoHistory<double> initial_history() const { return {}; }
-  bool              uses_equation_of_state() const { return false; }
-  double            modulus_bound(double) const { return 0.; }
+  void                 declare_parameters(Parameters &) {}
+  void                 finalize(const Parameters &) const {}
+  ShearHistory<double> initial_history(double) const { return {}; }
+  bool                 uses_equation_of_state() const { return false; }
+  double               modulus_bound(double) const { return 0.; }
 
   template <typename Number>
-  ShearResponse<Number> update(const ShearIncrement<Number> &, NoHistory<Number> &) const
+  Number grown_modulus(const Number &, const Number &) const
+  {
+    return Number(0.);
+  }
+  template <typename Number>
+  ShearResponse<Number> update(const ShearIncrement<Number> &, ShearHistory<Number> &) const
   {
     return {SymTensor<Number>(), Number(0.), Number(0.)};
   }
   template <typename Number>
-  void after_transfer(SymTensor<Number> &deviator, const Number &, NoHistory<Number> &) const
+  void after_transfer(SymTensor<Number> &deviator, const Number &, ShearHistory<Number> &) const
   {
     deviator = SymTensor<Number>();
   }
 };
 
-/// Metal-like plasticity: sqrt(3 J2) <= Y = (Y_0 + H ep^n) (1 + C ln(rate/rate_0)), Johnson and Cook (1983) without softening by heat;
-/// n = 1 is linear hardening. Radial return s = s_trial (1 - 3 G d ep/q_trial), where d ep solves
-///
-///   3 G d ep + Y(ep_n + d ep) = q_trial          (closed form for n = 1, else Newton's method in a bracket)
+/// Metal-like plasticity: sqrt(3 J2) <= Y = (Y_0 + H ep^n) (1 + C ln max(1, rate/rate_0)), Johnson and Cook (1983) without softening by heat;
+/// n = 1 is linear hardening. Radial return tau = tau_trial (1 - 3 G d ep/q_trial), q = sqrt(3/2 tau:tau), see RateFactor.
 struct MisesStrength
 {
   static constexpr const char *name = "mises";
 
   template <typename Number>
-  using History = PlasticHistory<Number>;
+  using History = ShearHistory<Number>;
 
   ElasticShear elastic;
   double       yield_stress = std::numeric_limits<double>::quiet_NaN(); ///< Y_0 [Pa], uniaxial
   double       hardening = 0., hardening_exponent = 1.;                 ///< H [Pa], n
-  double       rate_coefficient = 0., reference_rate = 1.;              ///< C, [1/s]
+  RateFactor   rate;
 
   void declare_parameters(Parameters &);
   void finalize(const Parameters &parameters) const { elastic.finalize(parameters); }
 
-  PlasticHistory<double> initial_history() const { return {}; }
-  bool                   uses_equation_of_state() const { return elastic.uses_equation_of_state(); }
-  double                 modulus_bound(const double bulk_modulus) const { return elastic.modulus_bound(bulk_modulus); }
+  ShearHistory<double> initial_history(const double K) const { return elastic.initial_history(K); }
+  bool                 uses_equation_of_state() const { return elastic.uses_equation_of_state(); }
+  double               modulus_bound(const double bulk_modulus) const { return elastic.modulus_bound(bulk_modulus); }
+  template <typename Number>
+  Number grown_modulus(const Number &G, const Number &bulk_modulus) const
+  {
+    return elastic.grown_modulus<Number>(G, bulk_modulus);
+  }
 
   template <typename Number>
-  ShearResponse<Number> update(const ShearIncrement<Number> &increment, PlasticHistory<Number> &history) const
+  ShearResponse<Number> update(const ShearIncrement<Number> &increment, ShearHistory<Number> &history) const
   {
-    const Number      G      = elastic.modulus<Number>(increment.bulk_modulus);
-    SymTensor<Number> s      = elastic.trial<Number>(increment, G);
-    const Number      factor = rate_factor<Number>(increment.strain, increment.dt, rate_coefficient, reference_rate);
-    const Number      q      = Arenite::square_root<Number>(Number(3.) * second_invariant(s) + Number(tiny()));
-    const Number      Y      = factor * yield<Number>(history.plastic_strain), shear(Number(3.) * G);
-    const auto        yields = q > Y;
-
-    Number step = Arenite::max<Number>(Number(0.), q - Y) / (shear + Number(hardening) * factor);
-    if (hardening > 0. && hardening_exponent != 1. && any_of(yields))
-      {
-        const auto excess = [&](const Number &x) {
-          // not at 0, where the slope of ep^n is infinite for n < 1
-          const Number ep = Arenite::max<Number>(history.plastic_strain + x, Number(1e-12));
-          return ValueAndSlope<Number>{shear * x + factor * yield<Number>(history.plastic_strain + x) - q,
-                                       shear + factor * Number(hardening * hardening_exponent) *
-                                                 Arenite::power<Number>(ep, hardening_exponent - 1.)};
-        };
-        const Number largest = (q - Y) / shear; // without hardening
-        const Number root =
-          bracketed_root<Number>(excess, Number(0.), largest, Number(Number(.5) * largest), Number(1e-14));
-        step = Arenite::select<Number>(yields, root, Number(0.));
-      }
-    s *= Number(Number(1.) - Number(3.) * G * step / q);
+    const Number            G = elastic.mean_modulus<Number>(increment, history), ep = history.plastic_strain;
+    const SymTensor<Number> s = elastic.trial<Number>(increment, G);
+    const Number            q = Arenite::square_root<Number>(Number(3.) * second_invariant(s) + Number(tiny()));
+    const auto              Y = [&](const Number &x) {
+      // the slope not at 0, where that of ep^n is infinite for n < 1
+      const Number away = Arenite::max<Number>(ep + x, Number(1e-12));
+      return YieldStress<Number>{yield<Number>(ep + x), Number(hardening * hardening_exponent) *
+                                                          Arenite::power<Number>(away, hardening_exponent - 1.)};
+    };
+    const Number step      = rate.plastic_step<Number>(Y, hardening == 0. || hardening_exponent == 1., q, G,
+                                                  increment.volume_ratio, increment.dt);
     history.plastic_strain = history.plastic_strain + step;
-    return {s, G, shear_energy<Number>(s, G)};
+    return scaled_back<Number>(increment, s, Number(Number(1.) - Number(3.) * G * step / q), G);
   }
   template <typename Number>
-  void after_transfer(SymTensor<Number> &s, const Number &, PlasticHistory<Number> &history) const
+  void after_transfer(SymTensor<Number> &s, const Number &, ShearHistory<Number> &history) const
   {
     history.plastic_strain = Arenite::max<Number>(Number(0.), history.plastic_strain);
-    const Number Y         = Number(yield_stress) + Number(hardening) * history.plastic_strain;
-    const Number q         = Arenite::square_root<Number>(Number(3.) * second_invariant(s) + Number(tiny()));
+    if (rate.coefficient > 0.)
+      return; // fast loading may have left a stress above the static strength
+    const Number Y = yield<Number>(history.plastic_strain);
+    const Number q = Arenite::square_root<Number>(Number(3.) * second_invariant(s) + Number(tiny()));
     s *= Arenite::min<Number>(Number(1.), Y / q);
   }
 
@@ -207,8 +285,8 @@ private:
   double tiny() const { return 1e-24 * yield_stress * yield_stress; }
 };
 
-/// Friction: sqrt(J2) <= F = min(k + alpha I1, F_max) (1 + beta ln(rate/rate_0)), I1 = 3 p in compression, not below 0. Radial return
-/// at constant pressure: no dilatancy, the pressure is that of the equation of state.
+/// Friction: sqrt(J2) <= F = min(k + alpha I1, F_max) (1 + beta ln max(1, rate/rate_0)), I1 = 3 p in compression, not below 0, with the Cauchy
+/// stress. Radial return at constant pressure: no dilatancy, the pressure is that of the equation of state.
 ///
 /// Source: Wang et al. (2004) as in Roger (2015), (2.2.15)-(2.2.17); the bound F_max is ours: sands saturate above some
 /// hundred MPa (Laine and Sandvik (2001): sqrt(3) F_max = 226 MPa).
@@ -217,20 +295,25 @@ struct FrictionStrength
   static constexpr const char *name = "drucker prager";
 
   template <typename Number>
-  using History = PlasticHistory<Number>;
+  using History = ShearHistory<Number>;
 
   ElasticShear elastic;
   double       cohesion         = 0.;                                       ///< k [Pa]
   double       slope            = std::numeric_limits<double>::quiet_NaN(); ///< alpha
   double       largest_strength = 1.3e8;                                    ///< F_max [Pa], of sqrt(J2)
-  double       rate_coefficient = 0., reference_rate = 1.;                  ///< beta, [1/s]
+  RateFactor   rate;                                                        ///< beta
 
   void declare_parameters(Parameters &);
   void finalize(const Parameters &) const;
 
-  PlasticHistory<double> initial_history() const { return {}; }
-  bool                   uses_equation_of_state() const { return true; }
-  double                 modulus_bound(const double bulk_modulus) const { return elastic.modulus_bound(bulk_modulus); }
+  ShearHistory<double> initial_history(const double K) const { return elastic.initial_history(K); }
+  bool                 uses_equation_of_state() const { return true; }
+  double               modulus_bound(const double bulk_modulus) const { return elastic.modulus_bound(bulk_modulus); }
+  template <typename Number>
+  Number grown_modulus(const Number &G, const Number &bulk_modulus) const
+  {
+    return elastic.grown_modulus<Number>(G, bulk_modulus);
+  }
 
   /// F without the rate factor [Pa]
   template <typename Number>
@@ -241,24 +324,30 @@ struct FrictionStrength
   }
 
   template <typename Number>
-  ShearResponse<Number> update(const ShearIncrement<Number> &increment, PlasticHistory<Number> &history) const
+  ShearResponse<Number> update(const ShearIncrement<Number> &increment, ShearHistory<Number> &history) const
   {
-    const Number      G = elastic.modulus<Number>(increment.bulk_modulus);
-    SymTensor<Number> s = elastic.trial<Number>(increment, G);
-    const Number      F = limit<Number>(increment.pressure) *
-                     rate_factor<Number>(increment.strain, increment.dt, rate_coefficient, reference_rate);
-    const Number root  = Arenite::square_root<Number>(second_invariant(s) + Number(tiny()));
-    const Number scale = Arenite::min<Number>(Number(1.), F / root);
-    history.plastic_strain =
-      history.plastic_strain + Number(0.57735026918962576) * (Number(1.) - scale) * root / G; // q/(3 G)
-    s *= scale;
-    return {s, G, shear_energy<Number>(s, G)};
+    const Number            G        = elastic.mean_modulus<Number>(increment, history);
+    const SymTensor<Number> s        = elastic.trial<Number>(increment, G);
+    const Number            three_J2 = Number(3.) * second_invariant(s),
+                 q                   = Arenite::square_root<Number>(three_J2 + Number(tiny())),
+                 Y                   = Number(1.7320508075688772) * limit<Number>(increment.pressure);
+    const Number step                = rate.plastic_step<Number>(
+      [&](const Number &) {
+        return YieldStress<Number>{Y, Number(0.)};
+      },
+      true, q, G, increment.volume_ratio, increment.dt);
+    // where neither strength nor stress is left, q is the tiny number alone
+    history.plastic_strain = history.plastic_strain + step * three_J2 / (q * q);
+    const Number scale     = Arenite::max<Number>(Number(0.), Number(Number(1.) - Number(3.) * G * step / q));
+    return scaled_back<Number>(increment, s, scale, G);
   }
   template <typename Number>
-  void after_transfer(SymTensor<Number> &s, const Number &pressure, PlasticHistory<Number> &history) const
+  void after_transfer(SymTensor<Number> &s, const Number &pressure, ShearHistory<Number> &history) const
   {
     history.plastic_strain = Arenite::max<Number>(Number(0.), history.plastic_strain);
-    const Number root      = Arenite::square_root<Number>(second_invariant(s) + Number(tiny()));
+    if (rate.coefficient > 0.)
+      return; // as for Mises
+    const Number root = Arenite::square_root<Number>(second_invariant(s) + Number(tiny()));
     s *= Arenite::min<Number>(Number(1.), limit<Number>(pressure) / root);
   }
 
@@ -273,7 +362,7 @@ struct SelectedStrength
   static constexpr const char *name = "selected";
 
   template <typename Number>
-  using History = PlasticHistory<Number>;
+  using History = ShearHistory<Number>;
 
   enum class Kind
   {
@@ -291,46 +380,49 @@ struct SelectedStrength
   void declare_parameters(Parameters &);
   void finalize(const Parameters &);
 
-  PlasticHistory<double> initial_history() const { return {}; }
-
-  bool uses_equation_of_state() const
+  /// The one in use.
+  template <typename F>
+  decltype(auto) visit(F &&f) const
   {
-    return kind == Kind::friction || (kind == Kind::elastic && elastic.uses_equation_of_state()) ||
-           (kind == Kind::mises && mises.uses_equation_of_state());
-  }
-  double modulus_bound(const double bulk_modulus) const
-  {
-    return kind == Kind::none      ? 0.
-           : kind == Kind::elastic ? elastic.modulus_bound(bulk_modulus)
-           : kind == Kind::mises   ? mises.modulus_bound(bulk_modulus)
-                                   : friction.modulus_bound(bulk_modulus);
-  }
-  template <typename Number>
-  ShearResponse<Number> update(const ShearIncrement<Number> &increment, PlasticHistory<Number> &history) const
-  {
-    NoHistory<Number> none;
     switch (kind)
       {
       case Kind::elastic:
-        return elastic.update<Number>(increment, none);
+        return f(elastic);
       case Kind::mises:
-        return mises.update<Number>(increment, history);
+        return f(mises);
       case Kind::friction:
-        return friction.update<Number>(increment, history);
+        return f(friction);
       default:
-        return NoStrength().update<Number>(increment, none);
+        return f(NoStrength());
       }
   }
-  template <typename Number>
-  void after_transfer(SymTensor<Number> &deviator, const Number &pressure, PlasticHistory<Number> &history) const
+
+  ShearHistory<double> initial_history(const double bulk_modulus) const
   {
-    NoHistory<Number> none;
-    if (kind == Kind::mises)
-      mises.after_transfer<Number>(deviator, pressure, history);
-    else if (kind == Kind::friction)
-      friction.after_transfer<Number>(deviator, pressure, history);
-    else if (kind == Kind::none)
-      NoStrength().after_transfer<Number>(deviator, pressure, none);
+    return visit([&](const auto &strength) { return strength.initial_history(bulk_modulus); });
+  }
+  bool uses_equation_of_state() const
+  {
+    return visit([](const auto &strength) { return strength.uses_equation_of_state(); });
+  }
+  double modulus_bound(const double bulk_modulus) const
+  {
+    return visit([&](const auto &strength) { return strength.modulus_bound(bulk_modulus); });
+  }
+  template <typename Number>
+  Number grown_modulus(const Number &G, const Number &bulk_modulus) const
+  {
+    return visit([&](const auto &strength) { return strength.template grown_modulus<Number>(G, bulk_modulus); });
+  }
+  template <typename Number>
+  ShearResponse<Number> update(const ShearIncrement<Number> &increment, ShearHistory<Number> &history) const
+  {
+    return visit([&](const auto &strength) { return strength.template update<Number>(increment, history); });
+  }
+  template <typename Number>
+  void after_transfer(SymTensor<Number> &deviator, const Number &pressure, ShearHistory<Number> &history) const
+  {
+    visit([&](const auto &strength) { strength.template after_transfer<Number>(deviator, pressure, history); });
   }
 
 private:

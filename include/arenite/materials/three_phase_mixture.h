@@ -47,7 +47,7 @@ struct ThreePhaseMixture
   NoHistory<double> initial_history() const { return {}; }
   double            reference_density() const { return density; }
 
-  /// V at the pressure p above p_a, -dV/dp, and the stored energy per mass (1/rho_0) int p (-dV/dp) dp.
+  /// V at the pressure p above p_a, and -dV/dp.
   template <typename Number>
   struct Volume
   {
@@ -85,14 +85,17 @@ struct ThreePhaseMixture
     };
     const Number guess =
       Arenite::logarithm<Number>(Arenite::max<Number>(change.pressure_old, Number(-tension_limit)) + shift);
-    const Number z = bracketed_root<Number>(excess, lower, upper, guess, Number(1e-9));
-    const Number p =
-      Arenite::select<Number>(open, Number(-tension_limit), Number(Arenite::exponential<Number>(z) - shift));
+    const Number z    = bracketed_root<Number>(excess, lower, upper, guess, Number(1e-9));
+    const Number root = Arenite::exponential<Number>(z) - shift;
+    // a last step in p itself, on 1 - V: neither the logarithm nor the difference of volumes leaves digits where p is small
+    const Number strain  = (change.density - Number(density)) / change.density;
+    const Number refined = root - (compaction<Number>(root) - strain) / volume<Number>(root).compliance;
+    const Number p       = Arenite::select<Number>(open, Number(-tension_limit), refined);
 
     // (ii) modulus and energy on the curve; while the gap is open those of the limit, with the speed that a closed gap has
     const Volume<Number>            V = volume<Number>(p);
     const Number                    K = V.volume / V.compliance;
-    EquationOfStateResponse<Number> response{p, K, stored<Number>(p, V.volume)};
+    EquationOfStateResponse<Number> response{p, K, stored<Number>(p)};
     const Number                    opened = Number(tension_limit / density) * (target - open_volume);
     response.stored = Arenite::select<Number>(open, Number(response.stored + opened), response.stored);
     response.bulk_modulus =
@@ -117,27 +120,40 @@ private:
   SoilStateEntries soil;
   std::string      path;
 
-  /// (1/rho_0) [ -p V + int_0^p V dp ],  int V dp = sum_i a_i K_i/(g_i - 1) ([..]^(1 - 1/g_i) - 1)  [J/kg]; the difference of terms is
-  /// accurate to round-off of p, and p^2/2 (-dV/dp) takes its place for small pressures.
+  /// 1 - V(p) [-], every phase to full relative accuracy.
   template <typename Number>
-  Number stored(const Number &p, const Number &V) const
+  Number compaction(const Number &p) const
   {
-    Number integral(0.), first(0.), second(0.);
+    Number sum(0.);
     for (int i = 0; i < 3; ++i)
       if (fraction[i] > 0.)
         {
-          const double g = exponent[i], K = modulus_of[i];
-          const Number base = Number(1.) + Number(g / K) * p;
-          integral =
-            integral +
-            Number(fraction[i] * K / (g - 1.)) *
-              (Arenite::exponential<Number>(Number(1. - 1. / g) * Arenite::logarithm<Number>(base)) - Number(1.));
-          first  = first + Number(fraction[i] / K);
-          second = second + Number(fraction[i] * (1. + g) / (K * K));
+          const Number z =
+            Number(-1. / exponent[i]) * Arenite::logarithm_one_plus<Number>(Number(exponent[i] / modulus_of[i]) * p);
+          sum = sum - Number(fraction[i]) * (z + Arenite::exponential_remainder<Number>(z));
         }
-    const auto   small  = Arenite::absolute<Number>(p) < Number(1e-3 * air_pressure);
-    const Number series = p * p * (Number(.5) * first - p * second * Number(1. / 3.));
-    return Number(1. / density) * Arenite::select<Number>(small, series, Number(integral - p * V));
+    return sum;
+  }
+
+  /// (1/rho_0) int_0^p p (-dV/dp) dp [J/kg]: with L = ln(1 + g p/K) and R(x) = e^x - 1 - x each phase has
+  ///
+  ///   a K/g^2 [ g/(g-1) R((1 - 1/g) L) + g R(-L/g) ]
+  ///
+  /// two positive terms.
+  template <typename Number>
+  Number stored(const Number &p) const
+  {
+    Number sum(0.);
+    for (int i = 0; i < 3; ++i)
+      if (fraction[i] > 0.)
+        {
+          const double g = exponent[i];
+          const Number L = Arenite::logarithm_one_plus<Number>(Number(g / modulus_of[i]) * p);
+          sum            = sum + Number(fraction[i] * modulus_of[i] / g) *
+                        (Number(1. / (g - 1.)) * Arenite::exponential_remainder<Number>(Number(1. - 1. / g) * L) +
+                         Arenite::exponential_remainder<Number>(Number(-1. / g) * L));
+        }
+    return Number(1. / density) * sum;
   }
 };
 } // namespace Arenite
