@@ -115,7 +115,8 @@ void Scene<dim>::finalize(Parameters &parameters)
       parameters.refuse("Verification/Exact solution", "holds for one material, but the blocks '" +
                                                          blocks.front().name + "' and '" + block.name + "' differ");
   constraints.exact_solution = exact_solution.get();
-  if (!(exact_solution && exact_solution->is_field()) && (initial_state == "exact solution" || parameters.is_set("Constraints/Exact boundaries")))
+  if (!(exact_solution && exact_solution->is_field()) &&
+      (initial_state == "exact solution" || parameters.is_set("Constraints/Exact boundaries")))
     parameters.refuse("Verification/Exact solution",
                       "must be a solution inside of the body for 'Initial conditions / State' or 'Constraints / Exact "
                       "boundaries'");
