@@ -141,12 +141,16 @@ struct LawChecks<ViscoplasticCap<Stiffness>>
     if (!verdict.checked)
       return verdict;
 
-    // what closed the gap did not compress
-    const SymTensor<double> whole_trial = elastic_trial(u.stress_n, strain, m.K, m.G);
+    // moduli that grow carry the Kirchhoff deviator J s through the step
+    const SymTensor<double> carried =
+      Stiffness::changes
+        ? deviator(u.stress_n) * (u.increment.density / u.increment.density_old) + spherical(trace(u.stress_n) / 3.)
+        : u.stress_n;
+    const SymTensor<double> whole_trial = elastic_trial(carried, strain, m.K, m.G);
     const double            unloading   = std::max(trace(u.stress_n), 0.) / (3. * m.K);
-    if (law.gap_closure)
+    if (law.gap_closure) // what closed the gap did not compress
       strain += spherical(std::min(std::max(-trace(strain) - unloading, 0.), u.history_n.separation) / 3.);
-    const SymTensor<double> trial_stress = elastic_trial(u.stress_n, strain, m.K, m.G);
+    const SymTensor<double> trial_stress = elastic_trial(carried, strain, m.K, m.G);
     const auto              trial        = invariants(trial_stress);
     verdict.dissipation = end_dissipation(u.stress, whole_trial, m.K, m.G) * std::min(m.K, m.G) / (scale * scale);
 
