@@ -1,8 +1,8 @@
 #include <arenite/verification/buried_cavity.h>
+#include <arenite/verification/gauss_rule.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,15 +10,6 @@
 
 namespace Arenite
 {
-namespace
-{
-const dealii::QGauss<1> &gauss_rule()
-{
-  static const dealii::QGauss<1> rule(24);
-  return rule;
-}
-} // namespace
-
 BuriedCavity::BuriedCavity(const LinearElastic &material, const double radius, const double depth,
                            std::shared_ptr<const TimeHistory> pressure)
   : material(material)

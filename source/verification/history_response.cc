@@ -1,6 +1,5 @@
+#include <arenite/verification/gauss_rule.h>
 #include <arenite/verification/history_response.h>
-
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +11,6 @@ namespace Arenite
 {
 namespace
 {
-const dealii::QGauss<1> &gauss_rule()
-{
-  static const dealii::QGauss<1> rule(24);
-  return rule;
-}
-
 constexpr double       panel_tolerance = 1e-14;
 constexpr unsigned int most_halvings   = 45; // reaches the rounding of t at a jump that no break point announces
 constexpr std::size_t  most_parts = 50000;   // of one panel; a Gaussian of 1/1000 of it without break points needs 5000

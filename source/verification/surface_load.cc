@@ -1,4 +1,5 @@
 #include <arenite/verification/free_vibration.h>
+#include <arenite/verification/gauss_rule.h>
 #include <arenite/verification/surface_load.h>
 
 #include <deal.II/base/exceptions.h>
@@ -17,12 +18,6 @@ using Complex = std::complex<double>;
 
 constexpr double pi = dealii::numbers::PI;
 
-const dealii::QGauss<1> &gauss_rule()
-{
-  static const dealii::QGauss<1> rule(24);
-  return rule;
-}
-
 /// Integral of f from @p low to @p high with square roots at both ends.
 template <typename Function>
 double integrate_roots(const double low, const double high, const Function &f)
@@ -30,12 +25,10 @@ double integrate_roots(const double low, const double high, const Function &f)
   double                 sum    = 0.;
   constexpr unsigned int panels = 4;
   for (unsigned int panel = 0; panel < panels; ++panel)
-    for (unsigned int i = 0; i < gauss_rule().size(); ++i)
-      {
-        const double theta = 0.5 * pi * (panel + gauss_rule().point(i)[0]) / panels, s = std::sin(theta);
-        sum += gauss_rule().weight(i) * 0.5 * pi / panels * (high - low) * 2. * s * std::cos(theta) *
-               f(low + (high - low) * s * s);
-      }
+    sum += gauss_integral(0.5 * pi * panel / panels, 0.5 * pi * (panel + 1) / panels, [&](const double theta) {
+      const double sine = std::sin(theta);
+      return (high - low) * 2. * sine * std::cos(theta) * f(low + (high - low) * sine * sine);
+    });
   return sum;
 }
 
@@ -71,26 +64,24 @@ double SurfaceLoad::pressure_rate(const double t) const
 
 double SurfaceLoad::source(const unsigned int n, const double z, const double r, const double t) const
 {
-  // w at which the retarded time t - r z cosh w is one of the break points; the pressure is at rest before the first
-  double       sum = 0., high = -1.;
-  const double arrival = r * z;
-  const auto   angle   = [&](const double time) { return std::acosh(std::max(1., (t - time) / arrival)); };
-  for (const double time : breaks)
+  // panels end where the retarded time t - r z cosh w is one of the break points; the pressure is at rest before the first
+  const double arrival  = r * z;
+  const auto   integral = [&](const double low, const double high) {
+    return gauss_integral(low, high, [&](const double w) {
+      const double c = std::cosh(w);
+      return pressure_rate(t - arrival * c) * (n == 1 ? c : 1.);
+    });
+  };
+  double sum = 0., high = std::acosh(std::max(1., (t - breaks.front()) / arrival));
+  for (std::size_t i = 1; i < breaks.size(); ++i)
     {
-      const double low = angle(time);
+      const double low = std::acosh(std::max(1., (t - breaks[i]) / arrival));
       if (high > low)
-        for (unsigned int i = 0; i < gauss_rule().size(); ++i)
-          {
-            const double w = low + gauss_rule().point(i)[0] * (high - low), c = std::cosh(w);
-            sum += gauss_rule().weight(i) * (high - low) * pressure_rate(t - arrival * c) * (n == 1 ? c : 1.);
-          }
+        sum += integral(low, high);
       high = low;
     }
-  for (unsigned int i = 0; high > 0. && i < gauss_rule().size(); ++i) // after the last break point
-    {
-      const double w = gauss_rule().point(i)[0] * high, c = std::cosh(w);
-      sum += gauss_rule().weight(i) * high * pressure_rate(t - arrival * c) * (n == 1 ? c : 1.);
-    }
+  if (high > 0.) // after the last break point
+    sum += integral(0., high);
   return sum;
 }
 
