@@ -165,6 +165,9 @@ Registry<Geometry<dim>> make_geometries()
       registry.template add<HalfSpace<dim>>(
         "half-space",
         "Spherical cavity below a free surface: quarter of the body, or its meridian plane. Not in one dimension.");
+      if constexpr (dim == 2)
+        registry.template add<LoadedHalfSpace>(
+          "loaded half-space", "Rectangles below a free surface with a loaded disc or strip; two dimensions only.");
       registry.template add<ImportedMesh<dim>>("file", "Hexahedra (quadrilaterals) from a Gmsh file, audited.");
     }
   return registry;

@@ -1,5 +1,6 @@
 #include <arenite/mesh/half_space.h>
 
+#include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/manifold_lib.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace
 {
 enum HalfSpaceBoundary : types::boundary_id
 {
-  cavity     = 0,
+  cavity     = 0, ///< or the load
   surface    = 1,
   outer      = 2,
   symmetry_x = 3 ///< followed by y
@@ -56,6 +57,21 @@ private:
 };
 
 constexpr types::manifold_id sphere = 0, blended = 1;
+
+/// Lengths of cells that fill @p distance: about first, first g, first g^2 ..., as many as fit, then stretched together.
+std::vector<double> graded_lengths(const double first, const double distance, const double growth)
+{
+  std::vector<double> lengths = {first};
+  double              sum     = first;
+  while (sum + 0.5 * lengths.back() * growth < distance)
+    {
+      lengths.push_back(lengths.back() * growth);
+      sum += lengths.back();
+    }
+  for (double &length : lengths)
+    length *= distance / sum;
+  return lengths;
+}
 } // namespace
 
 template <int dim>
@@ -104,19 +120,11 @@ double HalfSpace<dim>::core() const
 template <int dim>
 std::vector<double> HalfSpace<dim>::lines(const bool upwards) const
 {
-  const double end    = upwards ? depth : outer_distance;
-  const double factor = upwards ? 1. : growth;
-  // as many cells as fit, their lengths s, s g, s g^2 ... then stretched together to end at the boundary
-  std::vector<double> lengths = {core()};
-  double              sum     = core();
-  while (core() + sum + 0.5 * lengths.back() * factor < end)
-    {
-      lengths.push_back(lengths.back() * factor);
-      sum += lengths.back();
-    }
+  const double        end    = upwards ? depth : outer_distance;
+  const double        factor = upwards ? 1. : growth;
   std::vector<double> result = {0., core()};
-  for (const double length : lengths)
-    result.push_back(result.back() + length * (end - core()) / sum);
+  for (const double length : graded_lengths(core(), end - core(), upwards ? 1. : growth))
+    result.push_back(result.back() + length);
   return result;
 }
 
@@ -222,6 +230,49 @@ void HalfSpace<dim>::create(Triangulation<dim> &triangulation) const
   TransfiniteInterpolationManifold<dim> blending;
   blending.initialize(triangulation);
   triangulation.set_manifold(blended, blending);
+}
+
+void LoadedHalfSpace::declare_parameters(Parameters &parameters)
+{
+  path = parameters.current_path();
+  parameters.add_quantity("Load radius", radius, "m", positive,
+                          "Radius of the boundary 'load' around the origin; half its width in plane strain.");
+  parameters.add_integer("Cells across load", across, 1, 10000,
+                         "Coarse cells from the origin to the edge of the load.");
+  parameters.add_quantity("Outer distance", outer_distance, "m", positive,
+                          "From the origin to the boundary 'outer', at the side and below.");
+  parameters.add_quantity("Growth", growth, "-", {1., 2., false, false},
+                          "Ratio of the lengths of coarse cells from the load outwards; 1 keeps them equal.");
+}
+
+void LoadedHalfSpace::finalize(const Parameters &parameters)
+{
+  if (outer_distance < 2. * radius)
+    parameters.refuse(path + "/Outer distance", "must be at least twice 'Load radius'");
+  if (n_hoop_directions(symmetry) == 0 && symmetry != Symmetry::plane_strain)
+    parameters.refuse("Symmetry", "must be 'axisymmetric' or 'plane strain' for this mesh");
+}
+
+void LoadedHalfSpace::create(Triangulation<2> &triangulation) const
+{
+  std::vector<double> outwards(across, radius / across);
+  for (const double length : graded_lengths(outwards.back(), outer_distance - radius, growth))
+    outwards.push_back(length);
+  const std::vector<double> upwards(outwards.rbegin(), outwards.rend());
+  GridGenerator::subdivided_hyper_rectangle(triangulation, {outwards, upwards}, Point<2>(0., -outer_distance),
+                                            Point<2>(outer_distance, 0.));
+  for (const auto &cell : triangulation.active_cell_iterators())
+    for (const auto &face : cell->face_iterators())
+      if (face->at_boundary())
+        {
+          const Point<2> x      = face->center();
+          const double   nearly = 1e-6 * outwards.front();
+          face->set_boundary_id(outer);
+          if (std::abs(x[1]) < nearly)
+            face->set_boundary_id(x[0] < radius ? cavity : surface);
+          else if (x[0] < nearly)
+            face->set_boundary_id(symmetry_x);
+        }
 }
 
 template class HalfSpace<2>;

@@ -13,14 +13,16 @@ template <int dim>
 void SolutionChoice<dim>::declare_parameters(Parameters &parameters)
 {
   const auto section = parameters.section("Verification");
-  parameters.add_choice("Exact solution", type,
-                        {"none", "spherical cavity", "plane wave", "breathing mode", "torsion mode", "Lame mode",
-                         "shear mode", "Rayleigh mode", "buried cavity", "manufactured cube", "manufactured shell"},
-                        "Closed form to compare with; that of the buried cavity holds for displacements of the "
-                        "surface. The waves take their pressure from the scene's first pressure load; manufactured "
-                        "solutions add their body force.");
+  parameters.add_choice(
+    "Exact solution", type,
+    {"none", "spherical cavity", "plane wave", "breathing mode", "torsion mode", "Lame mode", "shear mode",
+     "Rayleigh mode", "buried cavity", "surface load", "manufactured cube", "manufactured shell"},
+    "Closed form to compare with; those of the buried cavity and the surface load hold for "
+    "displacements of the surface. The waves take their pressure from the scene's first pressure load; manufactured "
+    "solutions add their body force.");
   parameters.add_quantity("Inner radius", inner_radius, "m", non_negative,
                           "Cavity radius, or inner radius of a vibrating shell (0: ball).");
+  parameters.add_quantity("Load radius", load_radius, "m", positive, "Of the disc that a surface load acts on.");
   parameters.add_quantity("Depth", depth, "m", positive, "Of a buried cavity's centre below the surface.");
   parameters.add_quantity("Outer radius", outer_radius, "m", positive, "Radius of a vibrating ball or shell.");
   parameters.add_quantity("Side", side, "m", positive,
@@ -39,7 +41,7 @@ bool SolutionChoice<dim>::fits(const Symmetry symmetry) const
     return true;
   if (type == "spherical cavity" || type == "breathing mode" || type == "manufactured shell")
     return n_hoop_directions(symmetry) > 0;
-  if (type == "buried cavity")
+  if (type == "buried cavity" || type == "surface load")
     return symmetry == Symmetry::axisymmetric;
   if (type == "Lame mode" || type == "shear mode" || type == "Rayleigh mode")
     return symmetry == Symmetry::plane_strain;
@@ -55,7 +57,8 @@ std::shared_ptr<const ExactSolution<dim>> SolutionChoice<dim>::make(const Parame
   const std::string entry = "Verification/Exact solution";
   if (!fits(symmetry))
     parameters.refuse(entry, "is no motion of a scene with 'Symmetry = " + name(symmetry) + "'");
-  if ((type == "spherical cavity" || type == "plane wave" || type == "buried cavity") && !pressure)
+  if ((type == "spherical cavity" || type == "plane wave" || type == "buried cavity" || type == "surface load") &&
+      !pressure)
     parameters.refuse(entry, "needs a load of type 'pressure' in the scene");
   if ((type == "spherical cavity" || type == "manufactured shell") && inner_radius == 0.)
     parameters.refuse("Verification/Inner radius", "must be positive for '" + type + "'");
@@ -68,6 +71,13 @@ std::shared_ptr<const ExactSolution<dim>> SolutionChoice<dim>::make(const Parame
       if constexpr (dim > 1)
         return std::make_shared<BuriedCavityMotion<dim>>(material, inner_radius, depth, pressure);
     }
+  if constexpr (dim > 1)
+    if (type == "surface load")
+      {
+        if (pressure->break_points().size() < 2)
+          parameters.refuse(entry, "needs a pressure that has ended or become constant at some time");
+        return std::make_shared<SurfaceLoadMotion<dim>>(material, load_radius, pressure);
+      }
   if (type == "plane wave")
     {
       auto wave = std::make_shared<PlaneWave<dim>>(material, pressure);

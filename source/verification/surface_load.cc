@@ -19,13 +19,13 @@ using Complex = std::complex<double>;
 constexpr double pi = dealii::numbers::PI;
 
 /// Integral of f from @p low to @p high with square roots at both ends.
-template <typename Function>
-double integrate_roots(const double low, const double high, const Function &f)
+template <typename Result, typename Function>
+Result integrate_roots(const double low, const double high, const Function &f)
 {
-  double                 sum    = 0.;
+  Result                 sum{};
   constexpr unsigned int panels = 4;
   for (unsigned int panel = 0; panel < panels; ++panel)
-    sum += gauss_integral(0.5 * pi * panel / panels, 0.5 * pi * (panel + 1) / panels, [&](const double theta) {
+    sum += gauss_integral<Result>(0.5 * pi * panel / panels, 0.5 * pi * (panel + 1) / panels, [&](const double theta) {
       const double sine = std::sin(theta);
       return (high - low) * 2. * sine * std::cos(theta) * f(low + (high - low) * sine * sine);
     });
@@ -50,38 +50,46 @@ SurfaceLoad::SurfaceLoad(const LinearElastic &material, const double disc_radius
   , breaks(this->pressure->break_points())
 {
   AssertThrow(breaks.size() >= 2, dealii::ExcMessage("The surface load needs a pulse with break points."));
-  step = 1e-3 * (breaks.back() - breaks.front());
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
-    step = std::min(step, 1e-3 * (breaks[i + 1] - breaks[i]));
   rayleigh_slowness = 1. / Arenite::rayleigh_speed(material);
+  // p' by differences of fourth order, once: the integrals ask for it 10^5 times at one place and time
+  constexpr unsigned int n = 4000;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
+    {
+      const double        spacing = (breaks[i + 1] - breaks[i]) / n;
+      std::vector<double> values(n + 1);
+      for (unsigned int k = 0; k <= n; ++k)
+        values[k] = difference(breaks[i] + k * spacing, 4. * spacing);
+      rates.emplace_back(values.begin(), values.end(), breaks[i], spacing);
+    }
 }
 
-double SurfaceLoad::pressure_rate(const double t) const
+double SurfaceLoad::difference(const double t, const double step) const
 {
   const auto p = [&](const double shift) { return pressure->value(t + shift); };
   return (8. * (p(step) - p(-step)) - (p(2. * step) - p(-2. * step))) / (12. * step);
 }
 
-double SurfaceLoad::source(const unsigned int n, const double z, const double r, const double t) const
+SurfaceLoad::Pair SurfaceLoad::source(const double z, const double r, const double t) const
 {
   // panels end where the retarded time t - r z cosh w is one of the break points; the pressure is at rest before the first
-  const double arrival  = r * z;
-  const auto   integral = [&](const double low, const double high) {
-    return gauss_integral(low, high, [&](const double w) {
-      const double c = std::cosh(w);
-      return pressure_rate(t - arrival * c) * (n == 1 ? c : 1.);
-    });
+  const double arrival = r * z;
+  Pair         sum;
+  const auto   add = [&](const double low, const double high, const auto &rate) {
+    if (high > low)
+      sum += gauss_integral<Pair>(low, high, [&](const double w) {
+        const double c = std::cosh(w), value = rate(t - arrival * c);
+        return Pair({value, value * c});
+      });
   };
-  double sum = 0., high = std::acosh(std::max(1., (t - breaks.front()) / arrival));
+  double high = std::acosh(std::max(1., (t - breaks.front()) / arrival));
   for (std::size_t i = 1; i < breaks.size(); ++i)
     {
       const double low = std::acosh(std::max(1., (t - breaks[i]) / arrival));
-      if (high > low)
-        sum += integral(low, high);
+      add(low, high, [&](const double time) { return rates[i - 1](std::clamp(time, breaks[i - 1], breaks[i])); });
       high = low;
     }
-  if (high > 0.) // after the last break point
-    sum += integral(0., high);
+  const double step = 1e-3 * (breaks.back() - breaks.front());
+  add(0., high, [&](const double time) { return difference(time, step); });
   return sum;
 }
 
@@ -107,13 +115,14 @@ SurfaceLoad::SurfaceVector SurfaceLoad::point_force(const double r, const double
     return (4. * odd(1e-4 * c) - odd(2e-4 * c)) / 3.;
   };
 
-  double u_down = integrate_roots(a, std::min(b, end), [&](const double z) { return down(z) * source(0, z, r, t); });
-  double u_radial =
-    integrate_roots(a, std::min(b, end), [&](const double z) { return -radial(z).imag() * source(1, z, r, t); });
+  Pair u = integrate_roots<Pair>(a, std::min(b, end), [&](const double z) {
+    const Pair g = source(z, r, t);
+    return Pair({down(z) * g[0], -radial(z).imag() * g[1]});
+  });
   if (end > b)
     {
-      const double at_pole      = residue(down) * source(0, c, r, t);
-      const auto   without_pole = [&](const double z) { return down(z) * source(0, z, r, t) - at_pole / (z - c); };
+      const double at_pole      = residue(down) * source(c, r, t)[0];
+      const auto   without_pole = [&](const double z) { return down(z) * source(z, r, t)[0] - at_pole / (z - c); };
       // [b, 2 c - b] is symmetric, so that errors of the residue cancel; beyond, the source changes where its break points arrive
       std::vector<double> ends = {b, std::min(end, 2. * c - b), end};
       for (const double time : breaks)
@@ -121,31 +130,31 @@ SurfaceLoad::SurfaceVector SurfaceLoad::point_force(const double r, const double
           ends.push_back((t - time) / r);
       std::sort(ends.begin(), ends.end());
       for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-        u_down += integrate_roots(ends[i], ends[i + 1], without_pole);
-      u_down += at_pole * std::log(std::abs((end - c) / (b - c)));
+        u[0] += integrate_roots<double>(ends[i], ends[i + 1], without_pole);
+      u[0] += at_pole * std::log(std::abs((end - c) / (b - c)));
     }
   if (end > c)
-    u_radial -= pi * residue([&](const double z) { return radial(z).real(); }) * source(1, c, r, t);
+    u[1] -= pi * residue([&](const double z) { return radial(z).real(); }) * source(c, r, t)[1];
   const double factor = 1. / (pi * pi * material.shear_modulus);
-  return {factor * u_radial, -factor * u_down};
+  return {factor * u[1], -factor * u[0]};
 }
 
 SurfaceLoad::SurfaceVector SurfaceLoad::displacement(const double r, const double t) const
 {
-  // Gauss' rule along the radius of the disc, the mean over its angle; half of it by symmetry
-  static const dealii::QGauss<1> rule(6);
-  constexpr unsigned int         angles = 8;
-  SurfaceVector                  u;
-  for (unsigned int i = 0; i < rule.size(); ++i)
-    for (unsigned int k = 0; k < angles; ++k)
-      {
-        const double s = rule.point(i)[0] * radius, theta = pi * (k + 0.5) / angles;
-        const double area = rule.weight(i) * radius * s * 2. * pi / angles;
-        const double dx = r - s * std::cos(theta), dy = s * std::sin(theta), distance = std::hypot(dx, dy);
-        const auto   part = point_force(distance, t);
-        u.upward += area * part.upward;
-        u.radial += area * part.radial * dx / distance;
-      }
+  // arcs of the disc at the distance d = r - R cos theta, of half the angle phi: periodic in theta, so that midpoints do as Gauss' rule;
+  // the more, the wider the disc is against the Rayleigh wave that the pulse makes
+  const double       wave = (breaks.back() - breaks.front()) / rayleigh_slowness;
+  const unsigned int arcs = 12 + std::lround(8. * radius / wave);
+  SurfaceVector      u;
+  for (unsigned int i = 0; i < arcs; ++i)
+    {
+      const double theta = pi * (i + 0.5) / arcs, d = r - radius * std::cos(theta);
+      const double phi    = std::acos(std::clamp((d * d + r * r - radius * radius) / (2. * d * r), -1., 1.));
+      const double length = 2. * d * radius * std::sin(theta) * pi / arcs;
+      const auto   part   = point_force(d, t);
+      u.upward += length * phi * part.upward;
+      u.radial += length * std::sin(phi) * part.radial;
+    }
   return u;
 }
 } // namespace Arenite

@@ -30,4 +30,23 @@ private:
   double              core() const; ///< s [m]
   std::vector<double> lines(bool upwards) const;
 };
+
+/// Half-space z < 0 under a load on its surface: the meridian plane with a disc r < R around the origin, or half of a plane with a
+/// strip (plane strain). The last coordinate points up.
+///
+/// Rectangles: square ones under the load, from there on longer by the factor `Growth` from one to the next, out to the distance
+/// `Outer distance` at the side and below.
+class LoadedHalfSpace : public Geometry<2>
+{
+public:
+  LoadedHalfSpace() { names = {"load", "surface", "outer", "symmetry x"}; }
+  void declare_parameters(Parameters &) override;
+  void finalize(const Parameters &) override;
+  void create(dealii::Triangulation<2> &) const override;
+
+private:
+  double       radius = 0.1, outer_distance = 2., growth = 1.;
+  unsigned int across = 1; ///< cells under the load
+  std::string  path;
+};
 } // namespace Arenite

@@ -11,11 +11,11 @@ inline const dealii::QGauss<1> &gauss_rule()
   return rule;
 }
 
-/// Integral of f from @p low to @p high by gauss_rule().
-template <typename Function>
-double gauss_integral(const double low, const double high, const Function &f)
+/// Integral of f, a number or a tensor of numbers, from @p low to @p high by gauss_rule().
+template <typename Result = double, typename Function>
+Result gauss_integral(const double low, const double high, const Function &f)
 {
-  double sum = 0.;
+  Result sum{};
   for (unsigned int i = 0; i < gauss_rule().size(); ++i)
     sum += gauss_rule().weight(i) * (high - low) * f(low + gauss_rule().point(i)[0] * (high - low));
   return sum;

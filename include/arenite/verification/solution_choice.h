@@ -26,7 +26,8 @@ private:
   bool fits(Symmetry) const;
 
   std::string  type         = "none";
-  double       inner_radius = 0.1, depth = 0.5, outer_radius = 1., side = 1., frequency = 1000., amplitude = 1e-3;
+  double       inner_radius = 0.1, load_radius = 0.1, depth = 0.5, outer_radius = 1., side = 1.;
+  double       frequency = 1000., amplitude = 1e-3;
   unsigned int mode = 1;
 };
 } // namespace Arenite

@@ -3,6 +3,10 @@
 #include <arenite/base/time_history.h>
 #include <arenite/materials/linear_elastic.h>
 
+#include <deal.II/base/tensor.h>
+
+#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
+
 #include <memory>
 #include <vector>
 
@@ -48,11 +52,13 @@ private:
   double                             radius, a, b, rayleigh_slowness;
   std::shared_ptr<const TimeHistory> pressure;
   std::vector<double>                breaks; ///< of the pressure
-  double                             step;   ///< of the differences for p' [s]
 
-  double pressure_rate(double t) const;
+  using Pair = dealii::Tensor<1, 2>;
+  std::vector<boost::math::interpolators::cardinal_cubic_b_spline<double>> rates; ///< p' between the breaks
 
-  /// g_n(z), see above
-  double source(unsigned int n, double z, double r, double t) const;
+  double difference(double t, double step) const;
+
+  /// g_0(z), g_1(z), see above
+  Pair source(double z, double r, double t) const;
 };
 } // namespace Arenite
