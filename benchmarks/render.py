@@ -3,6 +3,8 @@
 
     render.py output/cavity/solution.pvd cavity.png --field velocity --component magnitude --warp 50 --edges
 
+    render.py output/buried_cavity/solution.pvd surface.png --time 3e-3 --mirror --edges
+
 FILE is a .pvtu, a .vtu, or the solution.pvd of a run (its last picture, or --time T). Surfaces and edges are those of the
 high-order cells themselves, not of their corners. Needs python3-vtk9 and, where no display is, xvfb.
 """
@@ -28,6 +30,7 @@ def arguments():
     parser.add_argument("--component", default="magnitude",
                         help="magnitude, x, y, z, xx, xy, ... or radial, seen from the origin (default: %(default)s)")
     parser.add_argument("--warp", type=float, default=0., metavar="FACTOR", help="show the displacement, this many times enlarged")
+    parser.add_argument("--mirror", action="store_true", help="show a meridian plane (x = r, y = z) on both sides of the axis")
     parser.add_argument("--edges", action="store_true", help="draw the edges of the cells")
     parser.add_argument("--range", type=float, nargs=2, metavar=("MIN", "MAX"), help="ends of the colour scale")
     parser.add_argument("--view", type=float, nargs=3, metavar=("X", "Y", "Z"), help="direction from the body to the eye")
@@ -79,18 +82,22 @@ def read(file):
 
 
 def cells_by_order(grid):
-    """Yields (order, ids): point ids of all hexahedra of one order, ids[cell, i, j, k] along the reference directions."""
+    """Yields (order, ids): point ids of all cells of one order, ids[cell, i, j] or [cell, i, j, k] along the reference directions."""
     connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
     offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
     sizes = np.diff(offsets)
-    for size in np.unique(sizes):
-        order = round(size ** (1 / 3)) - 1
-        if (order + 1) ** 3 != size:
-            stop("only hexahedra can be shown")
-        ids = connectivity[offsets[:-1][sizes == size][:, None] + np.arange(size)]
-        n = range(order + 1)
-        number = vtk.vtkLagrangeHexahedron.PointIndexFromIJK
-        local = np.array([[[number(i, j, k, (order,) * 3) for k in n] for j in n] for i in n])
+    types = vtk_to_numpy(grid.GetCellTypesArray())
+    for kind, size in sorted(set(zip(types.tolist(), sizes.tolist()))):
+        if kind in (vtk.VTK_QUAD, vtk.VTK_LAGRANGE_QUADRILATERAL):
+            dim, number = 2, vtk.vtkLagrangeQuadrilateral.PointIndexFromIJK
+        elif kind in (vtk.VTK_HEXAHEDRON, vtk.VTK_LAGRANGE_HEXAHEDRON):
+            dim, number = 3, vtk.vtkLagrangeHexahedron.PointIndexFromIJK
+        else:
+            stop("only hexahedra and quadrilaterals can be shown")
+        order = round(size ** (1 / dim)) - 1
+        ids = connectivity[offsets[:-1][(types == kind) & (sizes == size)][:, None] + np.arange(size)]
+        block = (order + 1,) * dim
+        local = np.array([number(*place, (order,) * dim) for place in np.ndindex(block)]).reshape(block)
         yield order, ids[:, local]
 
 
@@ -135,7 +142,9 @@ def lagrange(order, t):
 
 
 def outer_faces(ids, x):
-    """Faces [face, a, b] that only one cell has, first normal direction outwards or inwards alike."""
+    """Faces [face, a, b] that only one cell has, first normal direction outwards or inwards alike; plane cells themselves."""
+    if ids.ndim == 3:
+        return ids
     faces = np.concatenate([ids[:, 0], ids[:, -1], ids[:, :, 0], ids[:, :, -1], ids[:, :, :, 0], ids[:, :, :, -1]])
     corners = faces[:, [0, 0, -1, -1], [0, -1, 0, -1]]
     centre = x[corners].mean(axis=1)
@@ -218,8 +227,12 @@ def main():
     # Look at the planes of symmetry of an octant from outside: they show what happens within the body.
     box = np.array(body.GetBounds()).reshape(3, 2)
     size = (box[:, 1] - box[:, 0]).max()
+    flat = box[2, 0] == box[2, 1]
+    if options.mirror and not (flat and box[0, 0] >= -1e-6 * size):
+        stop("--mirror needs a meridian plane")
     at_planes = np.abs(box[:, 0]) < 0.05 * size
-    view = np.array(options.view or np.where(at_planes, -1., 1.) * ((1., 1.35, 0.8) if at_planes.all() else (0.8, -1.35, 0.7)))
+    usual = (0., 0., 1.) if flat else np.where(at_planes, -1., 1.) * ((1., 1.35, 0.8) if at_planes.all() else (0.8, -1.35, 0.7))
+    view = np.array(usual if options.view is None else options.view)
     view /= np.linalg.norm(view)
 
     renderer = vtk.vtkRenderer()
@@ -231,9 +244,9 @@ def main():
     mapper.InterpolateScalarsBeforeMappingOn()
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetAmbient(0.4)
-    actor.GetProperty().SetDiffuse(0.65)
-    renderer.AddActor(actor)
+    actor.GetProperty().SetAmbient(1. if flat else 0.4)  # no shades in a plane: the colours of the scale
+    actor.GetProperty().SetDiffuse(0. if flat else 0.65)
+    actors = [actor]
     if options.edges:
         line_mapper = vtk.vtkPolyDataMapper()
         line_mapper.SetInputData(edges)
@@ -243,7 +256,14 @@ def main():
         line_actor.GetProperty().SetColor(0.12, 0.12, 0.12)
         line_actor.GetProperty().SetLineWidth(max(1., options.size[1] / 700))
         line_actor.GetProperty().LightingOff()
-        renderer.AddActor(line_actor)
+        actors.append(line_actor)
+    for shown in actors:
+        renderer.AddActor(shown)
+        if options.mirror:
+            mirrored = vtk.vtkActor()
+            mirrored.ShallowCopy(shown)
+            mirrored.SetScale(-1., 1., 1.)
+            renderer.AddActor(mirrored)
 
     unit = UNITS.get(options.field)
     many = grid.GetPointData().GetArray(options.field).GetNumberOfComponents() > 1
@@ -281,6 +301,8 @@ def main():
     up = np.cross(view, right)
     # parallel projection that fills the window above the colour scale
     points = vtk_to_numpy(body.GetPoints().GetData())
+    if options.mirror:
+        points = np.concatenate([points, points * (-1., 1., 1.)])
     horizontal, vertical = points @ right, points @ up
     half = max(np.ptp(vertical) / 0.80, np.ptp(horizontal) * options.size[1] / options.size[0] / 0.94) / 2
     target = right * (horizontal.min() + horizontal.max()) / 2 + up * ((vertical.min() + vertical.max()) / 2 - 0.15 * half)

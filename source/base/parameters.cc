@@ -395,6 +395,9 @@ void Parameters::parse()
   for (const Entry &entry : entries)
     entry_of[entry.path] = &entry;
 
+  // a value that a later file or --set replaces may be one of another dimension
+  const auto wins = [&](const Setting &setting) { return &setting == last_setting(setting.path); };
+
   // (i) every setting must be declared and admissible; an unknown section is reported once, without what it contains
   std::set<std::string> known(sections.begin(), sections.end()), reported;
   known.insert("");
@@ -418,7 +421,7 @@ void Parameters::parse()
           continue;
         }
       const std::string complaint = found->second->complaint(setting.value);
-      if (!complaint.empty())
+      if (!complaint.empty() && wins(setting))
         problems.push_back(setting.place() + ": " + entry_label(setting.path) + " = " + excerpt(setting.value) + ": " +
                            complaint);
     }
@@ -453,7 +456,7 @@ void Parameters::parse()
 
   std::string text;
   for (const Setting &setting : settings)
-    if (!setting.opens_section)
+    if (!setting.opens_section && wins(setting))
       {
         const std::vector<std::string> names = split_path(setting.path);
         for (std::size_t i = 0; i + 1 < names.size(); ++i)

@@ -8,9 +8,9 @@
 
 namespace Arenite
 {
-Log::Log(const MPI_Comm communicator)
+Log::Log(const MPI_Comm communicator, const bool silent)
   : communicator(communicator)
-  , active(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+  , active(!silent && dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
 {}
 
 void Log::open(const OutputDirectory &directory)

@@ -118,6 +118,15 @@ void AbsorbingBoundary<dim>::set_nodal_state(const VectorType &values)
 }
 
 template <int dim>
+bool AbsorbingBoundary<dim>::admits(Reduction &form, const Parameters &parameters) const
+{
+  form.absorbed.insert(form.absorbed.end(), ids.begin(), ids.end());
+  form.shorten(parameters, path + "/Centre", centre);
+  return !have_common(ids, form.cut) && !have_common(ids, form.bare) &&
+         (!spherical() || (n_hoop_directions(form.form) > 0 && form.is_symmetric(centre)));
+}
+
+template <int dim>
 std::string AbsorbingBoundary<dim>::description() const
 {
   return condition + " boundary on " + join(boundary_names);
@@ -147,6 +156,15 @@ void Sponge<dim>::finalize(const Parameters &parameters, const Geometry<dim> &)
     parameters.refuse(path + "/Direction", "a plane sponge needs a direction");
   if (direction.norm() > 0.)
     direction /= direction.norm();
+}
+
+template <int dim>
+bool Sponge<dim>::admits(Reduction &form, const Parameters &parameters) const
+{
+  form.shorten(parameters, path + "/Origin", origin);
+  form.shorten(parameters, path + "/Direction", direction);
+  return shape == "sphere" ? n_hoop_directions(form.form) > 0 && form.is_symmetric(origin)
+                           : form.is_symmetric(direction);
 }
 
 template <int dim>

@@ -55,6 +55,32 @@ void Constraints<dim>::finalize(const Parameters &parameters, const Geometry<dim
     }
 }
 
+template <int dim>
+bool Constraints<dim>::admits(Reduction &form, const Parameters &parameters) const
+{
+  std::vector<std::string> planes; // that the form has, too
+  for (unsigned int i = 0; i < symmetry.size(); ++i)
+    if (!have_common({symmetry[i]}, form.cut))
+      planes.push_back(symmetry_names[i]);
+  // planes on other boundaries hold nothing but their normals only if these are flat
+  if ((!planes.empty() && n_hoop_directions(form.form) > 0) ||
+      !std::all_of(form.cut.begin(), form.cut.end(), [&](const auto id) { return have_common({id}, symmetry); }))
+    return false;
+  const std::string entry = "Constraints/Symmetry planes";
+  if (parameters.peek(entry, "auto") != "auto")
+    form.changes.push_back(entry + "=" + (planes.empty() ? "auto" : join(planes)));
+
+  if (!form.keeps(fixed) || !form.keeps(exact))
+    return false;
+  for (const auto &boundary : prescribed)
+    {
+      if (!form.keeps(boundary->ids) || !form.is_symmetric(boundary->direction))
+        return false;
+      form.shorten(parameters, "Constraints/" + boundary->name + "/Direction", boundary->direction);
+    }
+  return true;
+}
+
 namespace
 {
 /// integral of n n^T dS around each owned free node of boundaries: its range are the normals of all faces at the node, on whatever

@@ -70,6 +70,7 @@ std::string Pressure<dim>::description() const
 template <int dim>
 void Gravity<dim>::declare_parameters(Parameters &parameters)
 {
+  path = parameters.current_path();
   parameters.add_vector("Acceleration", acceleration, "m/s^2", "Acceleration of gravity, for example 0, 0, -9.81.");
   history.declare_parameters(parameters, "-");
 }
@@ -94,6 +95,13 @@ void Gravity<dim>::add(VectorType &force, const State<dim> &state)
 {
   factor = history.value(state.time);
   add_forces(weight, factor, force);
+}
+
+template <int dim>
+bool Gravity<dim>::admits(Reduction &form, const Parameters &parameters) const
+{
+  form.shorten(parameters, path + "/Acceleration", acceleration);
+  return form.is_symmetric(acceleration);
 }
 
 template <int dim>

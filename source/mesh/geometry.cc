@@ -107,6 +107,19 @@ public:
       triangulation);
   }
 
+  /// The sides along the coordinates that the form leaves out are cut.
+  bool admits(Reduction &form, const Parameters &parameters) const override
+  {
+    if (n_hoop_directions(form.form) > 0)
+      return false;
+    for (unsigned int d = form.dimension(); d < dim; ++d)
+      form.cut.insert(form.cut.end(), {2 * d, 2 * d + 1});
+    form.shorten(parameters, path + "/Lower corner", lower);
+    form.shorten(parameters, path + "/Upper corner", upper);
+    form.shorten(parameters, path + "/Cells", cells);
+    return true;
+  }
+
 private:
   Tensor<1, dim>            lower, upper;
   std::vector<std::string>  cells;

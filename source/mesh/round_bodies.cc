@@ -58,6 +58,13 @@ double copies(const std::string &sector, const Symmetry symmetry)
     }
 }
 
+/// A body between spheres looks the same from all sides, whichever sector or section of it the planes bound.
+bool admits_sphere(Reduction &form, const Symmetry symmetry)
+{
+  form.cut = {symmetry_x, symmetry_x + 1, symmetry_x + 2};
+  return n_hoop_directions(form.form) > 0 && symmetry != Symmetry::plane_strain;
+}
+
 /// One layer of cells of a sector of a shell; in the meridian plane the half ring is all.
 template <int dim>
 void make_shell(Triangulation<dim> &layer, const std::string &sector, const Symmetry symmetry,
@@ -148,6 +155,12 @@ double SphericalShell<dim>::symmetry_factor() const
 }
 
 template <int dim>
+bool SphericalShell<dim>::admits(Reduction &form, const Parameters &) const
+{
+  return admits_sphere(form, this->symmetry);
+}
+
+template <int dim>
 void SphericalShell<dim>::create(Triangulation<dim> &triangulation) const
 {
   Triangulation<dim> layer;
@@ -188,6 +201,12 @@ template <int dim>
 double Ball<dim>::symmetry_factor() const
 {
   return copies(sector, this->symmetry);
+}
+
+template <int dim>
+bool Ball<dim>::admits(Reduction &form, const Parameters &) const
+{
+  return admits_sphere(form, this->symmetry);
 }
 
 template <int dim>

@@ -1,13 +1,16 @@
 #include <arenite/base/names.h>
 #include <arenite/base/time_history.h>
 #include <arenite/io/files.h>
+#include <arenite/simulation/cheaper_form.h>
 #include <arenite/simulation/commands.h>
 #include <arenite/simulation/convergence_table.h>
 #include <arenite/simulation/simulation.h>
 
 #include <cmath>
+#include <cstdint>
 #include <iomanip>
 #include <iostream>
+#include <sstream>
 
 namespace Arenite
 {
@@ -57,6 +60,49 @@ RunRecord run_scene(const RunOptions &options, const std::vector<std::string> &o
   });
 }
 
+/// A scene as it stands before its first step.
+struct Size
+{
+  std::uint64_t unknowns;
+  double        steps;
+};
+
+Size size_of(Parameters parameters)
+{
+  return with_dimension(parameters, [&](const auto dim) {
+    Log                              silent(MPI_COMM_WORLD, true);
+    Scene<decltype(dim)::value>      scene(parameters);
+    Simulation<decltype(dim)::value> simulation(scene, silent, MPI_COMM_WORLD);
+    simulation.set_up();
+    return Size{simulation.unknowns(), simulation.expected_steps()};
+  });
+}
+
+/// Lines for the first of the forms that is a scene when its entries are changed, or nothing.
+std::string cheaper_form(const std::vector<Reduction> &forms, const RunOptions &options, const Size &present)
+{
+  for (const Reduction &form : forms)
+    try
+      {
+        auto overrides = options.overrides;
+        overrides.insert(overrides.end(), form.changes.begin(), form.changes.end());
+        const Size         reduced = size_of(Parameters::from_files(options.scenes, overrides));
+        std::ostringstream text;
+        text << "Cheaper    the scene is " << (form.form == Symmetry::plane_wave ? "a " : "") << name(form.form)
+             << (form.form == Symmetry::spherical ? "ly symmetric" : "")
+             << (form.far.empty() ? "" : " but for where its mesh ends") << ": the same motion with "
+             << reduced.unknowns << " unknowns instead of " << present.unknowns << " ("
+             << std::llround(double(present.unknowns) / reduced.unknowns) << " times fewer) and "
+             << std::llround(reduced.steps) << " steps instead of " << std::llround(present.steps) << "\n          ";
+        for (const std::string &change : form.changes)
+          text << " --set " << (change.find(' ') == std::string::npos ? change : '"' + change + '"');
+        return text.str();
+      }
+    catch (const InputError &) // an entry that has no meaning there, such as a solution to compare with
+      {}
+  return "";
+}
+
 /// `Mesh / Refinement` as the scene has it, before the objects that check it exist.
 unsigned int first_refinement(const Parameters &parameters)
 {
@@ -83,8 +129,12 @@ int check(const RunOptions &options)
     Simulation<decltype(dim)::value> simulation(scene, log, MPI_COMM_WORLD);
     if (!scene.title.empty())
       log.line(scene.title);
+    const std::vector<Reduction> forms = cheaper_forms(scene, parameters);
     simulation.set_up();
     simulation.describe_cost();
+    const std::string cheaper = cheaper_form(forms, options, {simulation.unknowns(), simulation.expected_steps()});
+    if (!cheaper.empty())
+      log.line(cheaper);
   });
   return 0;
 }

@@ -122,8 +122,7 @@ void Simulation<dim>::describe() const
   if (scene.adaptor.active())
     text << " + up to " << scene.adaptor.max_passes();
   text << ", " << ranks << (ranks == 1 ? " process" : " processes") << '\n'
-       << "Unknowns   " << dim * discretization.n_nodes() << ", " << scene.element.type << " of degree "
-       << scene.element.degree << '\n';
+       << "Unknowns   " << unknowns() << ", " << scene.element.type << " of degree " << scene.element.degree << '\n';
   for (unsigned int b = 0; b < scene.blocks.size(); ++b)
     {
       const LinearElastic &m = scene.blocks[b].material;
@@ -138,8 +137,7 @@ void Simulation<dim>::describe() const
   text << "Mass       " << initial_mass * scene.mesh.geometry->symmetry_factor() << " kg" << per_extent(scene.symmetry)
        << " of the full body; boundaries: " << join(scene.mesh.geometry->boundary_names()) << '\n';
   text << "Step       stable up to " << scene.time_step.limit() << " s (cell at " << scene.time_step.limiting_place()
-       << "), about " << std::ceil(scene.end_time / scene.time_step.next(0., scene.end_time)) << " steps of "
-       << scene.time_step.next(0., scene.end_time) << " s";
+       << "), about " << expected_steps() << " steps of " << scene.time_step.next(0., scene.end_time) << " s";
   log << text.str() << '\n';
 }
 
@@ -155,6 +153,12 @@ MaterialOfBlock Simulation<dim>::material_of_block() const
 }
 
 template <int dim>
+double Simulation<dim>::expected_steps() const
+{
+  return std::ceil(scene.end_time / scene.time_step.next(0., scene.end_time));
+}
+
+template <int dim>
 void Simulation<dim>::describe_cost()
 {
   // the fastest of a few force evaluations; the update and the ledgers add about a tenth
@@ -166,7 +170,7 @@ void Simulation<dim>::describe_cost()
       fastest     = std::min(fastest, core_seconds(start));
       state.force = 0.;
     }
-  const double steps = std::ceil(scene.end_time / scene.time_step.next(0., scene.end_time));
+  const double steps = expected_steps();
   record.measure_memory(communicator);
   std::ostringstream text;
   text.precision(3);
@@ -218,7 +222,7 @@ void Simulation<dim>::run(const OutputDirectory &directory)
   record.element         = scene.element.type;
   record.degree          = scene.element.degree;
   record.cells           = triangulation.n_global_active_cells();
-  record.dofs            = dim * discretization.n_nodes();
+  record.dofs            = unknowns();
   record.steps           = state.step;
   record.time            = state.time;
   record.energy_error    = dynamics->balance.largest_error();
@@ -306,8 +310,7 @@ void Simulation<dim>::observe(const OutputDirectory &directory, const double dt,
   if (due)
     {
       const EnergyReport report = dynamics->report(state, dt);
-      scene.statistics.add(report,
-                           {state.step, dt, triangulation.n_global_active_cells(), dim * discretization.n_nodes()});
+      scene.statistics.add(report, {state.step, dt, triangulation.n_global_active_cells(), unknowns()});
       watch(report);
       known_energy = report.scale();
     }

@@ -10,9 +10,11 @@ Comment lines of the scene say what must hold:
     # ARGS: --set "End time=1e-3"                    more arguments; {folder} is the folder of the scene
     # EXIT: 0                                        exit code
     # COMMAND: material                              instead of run; the result is result.csv in the output directory
+    # COMMAND: check                                 instead of run; there is no output but the screen
 
 CHECK and SAME know: run (the contents of run.json), errors (run["errors"]), log (log.txt as text), column("file.csv",
-"name"), rows("file.csv"), out (the output directory) and the functions of math. All measured values are printed.
+"name"), rows("file.csv"), out (the output directory), screen (the standard output) and the functions of math. All measured
+values are printed.
 """
 import csv, json, math, os, re, shlex, subprocess, sys, tempfile
 from pathlib import Path
@@ -29,12 +31,12 @@ def table(file):
     return {name: [line[i] for line in numbers] for i, name in enumerate(lines[0])}
 
 
-def names(out):
+def names(out, screen):
     """What an expression may use."""
     run = json.loads((out / "run.json").read_text()) if (out / "run.json").exists() else {}
     log = (out / "log.txt").read_text() if (out / "log.txt").exists() else ""
     values = {name: getattr(math, name) for name in dir(math) if not name.startswith("_")}
-    values.update(run=run, errors=run.get("errors", {}), log=log, out=out, abs=abs, min=min, max=max, re=re,
+    values.update(run=run, errors=run.get("errors", {}), log=log, out=out, screen=screen, abs=abs, min=min, max=max, re=re,
                   rows=lambda file: len(next(iter(table(out / file).values()))),
                   column=lambda file, name: table(out / file)[name])
     return values
@@ -91,7 +93,7 @@ def main(arenite, scene):
             out = Path(folder) / f"output-{i}"
             subcommand = wanted.get("COMMAND", ["run"])[0]
             result = out / "result.csv" if subcommand == "material" else out
-            arguments = [subcommand, scene, "--output", result] + [
+            arguments = [subcommand, scene] + ["--output", result] * (subcommand != "check") + [
                 a.replace("{folder}", str(scene.parent)) for line in wanted.get("ARGS", []) for a in shlex.split(line)]
             done = subprocess.run(command([arenite] + arguments, ranks), cwd=folder, stdin=subprocess.DEVNULL,
                                   capture_output=True, text=True, errors="replace")
@@ -99,7 +101,7 @@ def main(arenite, scene):
             if done.returncode != code:
                 return [f"exit code is {done.returncode}, must be {code}; last output:\n" +
                         "\n".join((done.stdout + done.stderr).splitlines()[-20:])]
-            values = names(out)
+            values = names(out, done.stdout)
             for expression in wanted.get("CHECK", []):
                 ok = evaluate(expression, values)
                 print(f"{'ok' if ok else 'NO':3} {measured(expression, values)}")

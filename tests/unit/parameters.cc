@@ -440,6 +440,15 @@ BOOST_AUTO_TEST_CASE(precedence)
   BOOST_TEST(parameters.source_text() == "Blocks = x\nEnd time = 3\nTitle = b\n");
 }
 
+// A replaced value need not suit the scene any more, as that of another dimension; its name must.
+BOOST_AUTO_TEST_CASE(replaced_values)
+{
+  const std::string plane = "set Gravity = 0, -9.81\n" + complete;
+  BOOST_TEST(mentions(refusal(plane), "must be 3 numbers"));
+  BOOST_TEST(read(plane, {"Gravity=0, 0, -9.81"}).gravity[2] == -9.81);
+  BOOST_TEST(mentions(refusal("set Gravty = 1\n" + complete, {"Gravty=0, 0, 1"}), "'Gravty' is not a parameter"));
+}
+
 // Mistakes in overrides are reported as the user typed them.
 BOOST_AUTO_TEST_CASE(overrides)
 {

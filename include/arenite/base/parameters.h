@@ -113,8 +113,8 @@ public:
   /// An entry of which a scene sets some but not all, such as elastic constants: echo() leaves it out when it is not set.
   void leave_out_if_unset(const std::string &name);
 
-  /// Strict pass: fills the bound members, or raises one InputError that lists every unknown, malformed, out-of-range
-  /// or missing entry with file:line, value, rule and the nearest known name, and leaves the members alone.
+  /// Strict pass: fills the members, or raises one InputError that lists every unknown, malformed, out-of-range or missing
+  /// entry with file:line, value, rule and nearest name, and leaves the members alone. Values that are replaced do not count.
   void parse();
 
   /// True if the user set this entry (declared or not).

@@ -19,7 +19,7 @@ class OutputDirectory;
 class Log
 {
 public:
-  explicit Log(MPI_Comm);
+  explicit Log(MPI_Comm, bool silent = false);
 
   /// Start log.txt in a directory that has been created. Collective only in that everybody calls it.
   void open(const OutputDirectory &);

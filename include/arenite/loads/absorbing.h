@@ -33,6 +33,7 @@ public:
   void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override;
   void        finish_step(const VectorType &half_velocity, double dt) override;
+  bool        admits(Reduction &, const Parameters &) const override;
   std::string description() const override;
   const DampingBlocks<dim> *damping() const override { return &dashpots; }
   const VectorType         *nodal_state() const override { return spherical() ? &memory : nullptr; }
@@ -75,6 +76,7 @@ public:
   void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &, const State<dim> &) override {}
   double      power(const VectorType &) const override { return 0.; }
+  bool        admits(Reduction &, const Parameters &) const override;
   std::string description() const override { return "sponge layer"; }
   const DampingBlocks<dim> *damping() const override { return &dashpots; }
 

@@ -16,10 +16,14 @@ public:
     this->name = "body force";
   }
 
-  void        declare_parameters(Parameters &) override {}
-  void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
-  void        add(VectorType &force, const State<dim> &) override;
-  double      power(const VectorType &half_velocity) const override;
+  void   declare_parameters(Parameters &) override {}
+  void   reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
+  void   add(VectorType &force, const State<dim> &) override;
+  double power(const VectorType &half_velocity) const override;
+  bool   admits(Reduction &form, const Parameters &) const override
+  {
+    return n_hoop_directions(form.form) > 0 && solution->is_radial();
+  }
   std::string description() const override { return "body force of the manufactured solution"; }
 
 private:

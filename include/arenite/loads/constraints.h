@@ -14,6 +14,9 @@ public:
   void declare_parameters(Parameters &);
   void finalize(const Parameters &, const Geometry<dim> &);
 
+  /// Whether planes of symmetry hold all boundaries that the form cuts, and what is held otherwise keeps to it. After the geometry.
+  bool admits(Reduction &, const Parameters &) const;
+
   /// Symmetry planes by boundary id, without a scene.
   void set_symmetry(const std::vector<dealii::types::boundary_id> &ids) { symmetry = ids; }
 
@@ -38,6 +41,8 @@ public:
 
   /// D -> P D P at constrained nodes.
   void project(DampingBlocks<dim> &) const;
+
+  bool follows_exact_solution() const { return !exact.empty(); }
 
   /// Boundaries that follow an exact solution (verification scenes).
   const ExactSolution<dim> *exact_solution = nullptr;

@@ -57,6 +57,9 @@ public:
   /// Boundaries that this load pushes on; adaptive meshes start refined there.
   virtual std::vector<dealii::types::boundary_id> loaded_boundaries() const { return {}; }
 
+  /// Whether a body that admits the form keeps to it under this load. Not known is no.
+  virtual bool admits(Reduction &, const Parameters &) const { return false; }
+
   /// One line for the log.
   virtual std::string description() const = 0;
 

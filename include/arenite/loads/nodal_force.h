@@ -40,6 +40,7 @@ public:
   void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override { return power_of(area, factor, half_velocity); }
+  bool        admits(Reduction &form, const Parameters &) const override { return form.keeps(ids); }
   std::string description() const override;
   std::vector<dealii::types::boundary_id> loaded_boundaries() const override { return ids; }
   const HistoryChoice                    &pressure_history() const { return history; }
@@ -64,9 +65,11 @@ public:
   void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override { return power_of(weight, factor, half_velocity); }
+  bool        admits(Reduction &, const Parameters &) const override;
   std::string description() const override;
 
 private:
+  std::string            path;
   dealii::Tensor<1, dim> acceleration;
   HistoryChoice          history;
   NodalForces<dim>       weight;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <arenite/base/parameters.h>
+#include <arenite/base/reduction.h>
 #include <arenite/base/registry.h>
 #include <arenite/base/symmetry.h>
 
@@ -27,6 +28,9 @@ public:
 
   /// How many copies of the modelled sector make up the full body.
   virtual double symmetry_factor() const { return 1.; }
+
+  /// Whether the form is one of this body, whose boundaries are then entered. Not known is no.
+  virtual bool admits(Reduction &, const Parameters &) const { return false; }
 
   const std::vector<std::string> &boundary_names() const { return names; }
 

@@ -23,6 +23,17 @@ public:
   void   create(dealii::Triangulation<dim> &) const override;
   double symmetry_factor() const override;
 
+  /// Turned around the z axis the brick of the mesh becomes a cylinder.
+  bool admits(Reduction &form, const Parameters &parameters) const override
+  {
+    if (dim < 3 || form.form != Symmetry::axisymmetric)
+      return false;
+    form.cut  = this->boundary_ids(parameters, path, {"symmetry x", "symmetry y"});
+    form.far  = this->boundary_ids(parameters, path, {"outer"});
+    form.bare = this->boundary_ids(parameters, path, {"surface"});
+    return true;
+  }
+
 private:
   double      radius = 0.1, depth = 0.5, outer_distance = 2., growth = 1.2;
   std::string path;

@@ -17,6 +17,7 @@ public:
   void   finalize(const Parameters &) override;
   void   create(dealii::Triangulation<dim> &) const override;
   double symmetry_factor() const override;
+  bool   admits(Reduction &, const Parameters &) const override;
 
 private:
   std::string  sector = "octant", spacing = "geometric", path;
@@ -33,6 +34,7 @@ public:
   void   declare_parameters(Parameters &) override;
   void   create(dealii::Triangulation<dim> &) const override;
   double symmetry_factor() const override;
+  bool   admits(Reduction &, const Parameters &) const override;
 
 private:
   std::string sector = "octant";

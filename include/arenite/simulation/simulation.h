@@ -23,6 +23,9 @@ public:
   /// From 0 to the end time; writes into @p directory. Fills record(). PhysicsAlarm when the state leaves physics.
   void run(const OutputDirectory &directory);
 
+  std::uint64_t unknowns() const { return std::uint64_t(dim) * discretization.n_nodes(); }
+  double        expected_steps() const; ///< on the present mesh
+
   /// Time a few steps and print what a run would cost, for `arenite check`.
   void describe_cost();
 

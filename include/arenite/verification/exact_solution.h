@@ -37,6 +37,9 @@ public:
   virtual bool is_field() const { return true; }
   virtual bool known_at(const dealii::Point<dim> &, double) const { return true; }
 
+  /// Motion towards and away from the origin, the same in all directions.
+  virtual bool is_radial() const { return false; }
+
   virtual void declare_parameters(Parameters &) {}
   virtual void finalize() {}
 };

@@ -47,6 +47,7 @@ class BreathingMode : public FreeVibration<dim>
 public:
   BreathingMode(const LinearElastic &material, double inner_radius, double outer_radius, unsigned int number = 1);
 
+  bool                          is_radial() const override { return true; }
   double                        angular_frequency() const override;
   dealii::Tensor<1, dim>        mode(const dealii::Point<dim> &x) const override;
   dealii::SymmetricTensor<2, 3> mode_stress(const dealii::Point<dim> &x) const override;

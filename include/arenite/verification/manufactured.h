@@ -98,6 +98,7 @@ public:
   dealii::SymmetricTensor<2, 3> stress(const dealii::Point<dim> &x, double t) const override;
   dealii::Tensor<1, dim>        body_force(const dealii::Point<dim> &x, double t) const override;
   bool                          has_body_force() const override { return true; }
+  bool                          is_radial() const override { return motion.twist == 0.; }
 
   void declare_parameters(Parameters &parameters) override;
 

@@ -32,6 +32,8 @@ public:
   dealii::Tensor<1, dim>        velocity(const dealii::Point<dim> &x, double t) const override;
   dealii::SymmetricTensor<2, 3> stress(const dealii::Point<dim> &x, double t) const override;
 
+  bool is_radial() const override { return centre == dealii::Point<dim>(); }
+
   void declare_parameters(Parameters &parameters) override;
 
   /// Radial displacement [m], velocity [m/s], radial and hoop stress [Pa].
