@@ -194,13 +194,13 @@ def rate(rows, x, y):
     return math.log(b[y] / a[y]) / math.log(b[x] / a[x])
 
 
-def figure(path, series, xlabel="core-seconds", ylabel="error", title="", slopes=(), loglog=True):
+def figure(path, series, xlabel="core-seconds", ylabel="error", title="", slopes=(), loglog=True, markers=True):
     """One curve per series, {name: [(x, y), ...]}; slopes draws guides of these orders. The suffix of path is the format."""
     plt.rcParams.update({"svg.hashsalt": "arenite", "svg.fonttype": "none", "font.size": 10})
     drawing, axes = plt.subplots(figsize=(6.4, 4.4))
     for i, (name, points) in enumerate(series.items()):
         points = sorted(points)
-        axes.plot([p[0] for p in points], [p[1] for p in points], "osD^vP*Xdh<>"[i % 12] + "-", label=name, markersize=5,
+        axes.plot([p[0] for p in points], [p[1] for p in points], ("osD^vP*Xdh<>"[i % 12] if markers else "") + "-", label=name, markersize=5,
                   linewidth=1.4)
     if loglog:
         axes.set_xscale("log")

@@ -4,6 +4,8 @@
 #include <arenite/simulation/commands.h>
 #include <arenite/simulation/scene.h>
 
+#include <algorithm>
+
 namespace Arenite
 {
 namespace
@@ -59,6 +61,22 @@ subsection Receivers
   end
 end
 )";
+template <int dim>
+std::string entries_of_mesh(const std::string &name)
+{
+  Parameters entries;
+  const auto geometry = geometries<dim>().make(name);
+  {
+    const auto section = entries.section("Mesh");
+    geometry->declare_parameters(entries);
+  }
+  return "\nEntries of `set Type = " + name + "`:\n\n" + entries.manual();
+}
+
+bool contains(const std::vector<std::string> &list, const std::string &name)
+{
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
 } // namespace
 
 std::string complete_manual()
@@ -72,15 +90,10 @@ std::string complete_manual()
 
   text += "\n# Mesh types\n\n" + geometries<3>().catalogue() + "\n";
   for (const std::string &name : geometries<3>().names())
-    {
-      Parameters entries;
-      const auto geometry = geometries<3>().make(name);
-      {
-        const auto section = entries.section("Mesh");
-        geometry->declare_parameters(entries);
-      }
-      text += "\nEntries of `set Type = " + name + "`:\n\n" + entries.manual();
-    }
+    text += entries_of_mesh<3>(name);
+  for (const std::string &name : geometries<2>().names())
+    if (!contains(geometries<3>().names(), name))
+      text += "\nIn two dimensions only: " + name + ".\n" + entries_of_mesh<2>(name);
 
   text += "\n# Laws\n\nEntries of a block, `subsection Materials / <block>`, beside those above. Scenes take `linear "
           "elastic`, "

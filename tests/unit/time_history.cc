@@ -1,3 +1,5 @@
+#include <arenite/base/main_frequency.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -144,6 +146,17 @@ BOOST_AUTO_TEST_CASE(regularity_at_break_points)
                    c.name << " at " << t << ": order " << order_across(*history, t, c.regularity + 2, 3e-6)
                           << ", expected " << c.regularity + 1);
     }
+}
+
+// sin^6(pi t/T) has p' of 30 sin 2x - 24 sin 4x + 6 sin 6x, x = pi t/T, so that the mean square of p'' over that of p' is 28/3 (pi/T)^2;
+// the spectrum of Ricker's p' is f^3 exp(-(f/f_p)^2), whose mean square frequency is 7/4 f_p^2. Tolerance: differences, (pulse/5000)^2.
+BOOST_AUTO_TEST_CASE(main_frequency_of_pulses)
+{
+  const auto pulse = history_from_text("sin^n pulse", "set Amplitude = 3e6\nset Duration = 2e-3\nset Exponent = 6\n");
+  BOOST_TEST(main_frequency(*pulse, 7e-3) == std::sqrt(28. / 3.) / (2. * 2e-3), boost::test_tools::tolerance(1e-5));
+  const auto ricker = history_from_text("Ricker", "set Frequency = 500\nset Centre time = 5e-3\n");
+  BOOST_TEST(main_frequency(*ricker, 1e-2) == std::sqrt(7.) / 2. * 500., boost::test_tools::tolerance(1e-5));
+  BOOST_TEST(!std::isfinite(main_frequency(*history_from_text("step", "set Amplitude = 1\n"), 1.)));
 }
 
 // A pulse with tails counts as smooth only if its cut at the start is below rounding.
