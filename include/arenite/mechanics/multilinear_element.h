@@ -155,27 +155,53 @@ struct FullElement
       o[k] = (q & ((1 << k) - 1)) | (q >> (k + 1) << k);
   }
 
+  /// Derivatives of the coordinates along the lines of Gauss points, and the first coordinate at the points.
+  template <typename V>
+  struct PointGeometry
+  {
+    V gx[dim][dim][n_lines], r[n_nodes];
+
+    explicit ARENITE_INLINE PointGeometry(const V (&x)[dim][n_nodes])
+    {
+      for (int i = 0; i < dim; ++i)
+        {
+          V modes[n_nodes];
+          for (int n = 0; n < n_nodes; ++n)
+            modes[n] = x[i][n];
+          Modes::transform(modes);
+          reference_gradient(modes, gx[i]);
+          if (i == 0)
+            point_values(modes, r);
+        }
+    }
+
+    /// Cofactors of the Jacobian at point @p q; returns det(J).
+    ARENITE_INLINE V cofactors_at(const int q, V (&C)[dim][dim]) const
+    {
+      int o[dim];
+      point_index(q, o);
+      V J[dim][dim];
+      for (int i = 0; i < dim; ++i)
+        for (int k = 0; k < dim; ++k)
+          J[i][k] = gx[i][k][o[k]];
+      return cofactors(J, C);
+    }
+  };
+
   template <bool with_energy, typename V>
   static ARENITE_INLINE void internal_force(const V (&x)[dim][n_nodes], V (&u)[dim][n_nodes],
                                             const ElasticModuli &moduli, ElementEnergy<V> &energy)
   {
-    V gx[dim][dim][n_lines], gu[dim][dim][n_lines], gf[dim][dim][n_lines];
-    V r[n_nodes], u_r[n_nodes]; // at the points; then the hoop force there
+    const PointGeometry<V> geometry(x);
+    V                      gu[dim][dim][n_lines], gf[dim][dim][n_lines];
+    V                      u_r[n_nodes]; // at the points; then the hoop force there
     for (int i = 0; i < dim; ++i)
       {
-        V modes[n_nodes];
-        for (int n = 0; n < n_nodes; ++n)
-          modes[n] = x[i][n];
-        Modes::transform(modes);
-        reference_gradient(modes, gx[i]);
         Modes::transform(u[i]);
         reference_gradient(u[i], gu[i]);
         if constexpr (n_hoop > 0)
           if (i == 0)
-            {
-              point_values(modes, r);
-              point_values(u[i], u_r);
-            }
+            point_values(u[i], u_r);
         for (int k = 0; k < dim; ++k)
           for (int l = 0; l < n_lines; ++l)
             gf[i][k][l] = V(0.);
@@ -185,14 +211,11 @@ struct FullElement
       {
         int o[dim];
         point_index(q, o);
-        V J[dim][dim], C[dim][dim];
-        for (int i = 0; i < dim; ++i)
-          for (int k = 0; k < dim; ++k)
-            J[i][k] = gx[i][k][o[k]];
-        const V det   = cofactors(J, C);
+        V       C[dim][dim];
+        const V det   = geometry.cofactors_at(q, C);
         V       scale = V(1.) / det;
         if constexpr (n_hoop > 0)
-          scale *= measure<n_hoop>(r[q]);
+          scale *= measure<n_hoop>(geometry.r[q]);
         V gradient[dim][dim], stress[dim][dim], hoop = V(0.),
                                                 hoop_stress = V(0.); // gradient and hoop strain carry det(J)
         for (int i = 0; i < dim; ++i)
@@ -203,7 +226,7 @@ struct FullElement
                 gradient[i][j] += gu[i][d][o[d]] * C[j][d];
             }
         if constexpr (n_hoop > 0)
-          hoop = det * u_r[q] / r[q];
+          hoop = det * u_r[q] / geometry.r[q];
         elastic_stress<n_hoop>(gradient, hoop, scale, moduli, stress, hoop_stress);
         if constexpr (with_energy)
           energy.strain += V(0.5) * contract(stress, gradient);
@@ -211,7 +234,7 @@ struct FullElement
           {
             if constexpr (with_energy)
               energy.strain += V(0.5 * n_hoop) * hoop_stress * hoop;
-            u_r[q] = V(-double(n_hoop)) * hoop_stress * det / r[q];
+            u_r[q] = V(-double(n_hoop)) * hoop_stress * det / geometry.r[q];
           }
         for (int i = 0; i < dim; ++i)
           for (int k = 0; k < dim; ++k)
@@ -237,27 +260,12 @@ struct FullElement
   template <typename V, typename Visit>
   static void for_each_gauss_point(const V (&x)[dim][n_nodes], const Visit &visit)
   {
-    V gx[dim][dim][n_lines], r[n_nodes];
-    for (int i = 0; i < dim; ++i)
-      {
-        V modes[n_nodes];
-        for (int n = 0; n < n_nodes; ++n)
-          modes[n] = x[i][n];
-        Modes::transform(modes);
-        reference_gradient(modes, gx[i]);
-        if (i == 0)
-          point_values(modes, r);
-      }
+    const PointGeometry<V> geometry(x);
     for (int q = 0; q < n_nodes; ++q)
       {
-        int o[dim];
-        point_index(q, o);
-        V J[dim][dim], C[dim][dim];
-        for (int i = 0; i < dim; ++i)
-          for (int k = 0; k < dim; ++k)
-            J[i][k] = gx[i][k][o[k]];
-        const V det = cofactors(J, C);
-        visit(q, det, C, r[q]);
+        V       C[dim][dim];
+        const V det = geometry.cofactors_at(q, C);
+        visit(q, det, C, geometry.r[q]);
       }
   }
 
