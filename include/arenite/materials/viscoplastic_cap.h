@@ -214,13 +214,22 @@ private:
     }
   };
 
+  /// e^z - 1 - z of the logarithmic spring, z = p/K. Beyond z = 10, a compression by a factor of 22000, by its tangent: no density
+  /// leads there, but a stress that a transfer or a user gives may, and must not overflow.
+  template <typename Number>
+  static Number spring_energy(const Number &p, const Number &K)
+  {
+    const Number z = p / K, reached = min(z, Number(10.)), remainder = exponential_remainder(reached);
+    return remainder + (remainder + reached) * (z - reached);
+  }
+
   /// What an inelastic volume strain dissipates per unit [Pa]: p, and where stored energy is that of the reference volume, the elastic
   /// energy of the present volume, which the strain takes from or adds to the body: d(J U) = J U d eps_vp.
   template <typename Number>
   Number pressure_of_flow(const Number &p, const Number &K) const
   {
     if constexpr (Stiffness::changes)
-      return p + K * exponential_remainder(Number(p / K));
+      return p + K * spring_energy(p, K);
     else
       return p;
   }
@@ -243,9 +252,7 @@ private:
   {
     const Number J_n = Number(density()) / increment.density_old, J = Number(density()) / increment.density,
                  per_mean_J = Number(2.) / (J_n + J);
-    const auto volume       = [](const Number &pressure, const Number &K) {
-      return K * exponential_remainder(Number(pressure / K));
-    };
+    const auto volume       = [](const Number &pressure, const Number &K) { return K * spring_energy(pressure, K); };
     const auto shear = [](const Number &invariant, const Number &volume_ratio, const Number &G) {
       return Number(0.5) * invariant * volume_ratio * volume_ratio / G;
     };
