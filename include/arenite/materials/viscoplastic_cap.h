@@ -151,7 +151,7 @@ struct ViscoplasticCap
     else
       {
         response.wave_speed = square_root(Number((moduli.K + Number(4. / 3.) * moduli.G) / increment.density));
-        response.stored     = (p * p * moduli.G + J2 * moduli.K) / (Number(2.) * moduli.K * moduli.G);
+        response.stored     = stiffness.elastic.stored_energy(p, J2);
         response.dissipated = dissipation.volume + dissipation.shear;
       }
     return response;
@@ -213,6 +213,15 @@ private:
       return *this;
     }
   };
+
+  /// e^z - 1 - z of the logarithmic spring, z = p/K. Beyond z = 10, a compression by a factor of 22000, by its tangent: no density
+  /// leads there, but a stress that a transfer or a user gives may, and must not overflow.
+  template <typename Number>
+  static Number spring_energy(const Number &p, const Number &K)
+  {
+    const Number z = p / K, reached = min(z, Number(10.)), remainder = exponential_remainder(reached);
+    return remainder + (remainder + reached) * (z - reached);
+  }
 
   /// e^z - 1 - z of the logarithmic spring, z = p/K. Beyond z = 10, a compression by a factor of 22000, by its tangent: no density
   /// leads there, but a stress that a transfer or a user gives may, and must not overflow.
