@@ -56,6 +56,7 @@ std::vector<ParameterSet> parameter_sets()
                5e3, 1e6, 1.5),
           make("dense sand", 1.2e9, .55e9, 100e3, .5e-6, 40e3, .22, .18, 2e-9, 3., 3e6, 20e3, .5e6, 1.),
           make("dense sand at high pressure", 20e9, 9e9, 1e6, .05e-6, .2e6, .15, .3, 1e-9, 4., 10e6, .1e6, 10e6, 2.),
+          make("10 kPa cap under tens of GPa", 20e9, 9e9, 1e6, .05e-6, .2e6, .15, .3, 1e-9, 4., 1e4, .1e6, 10e6, 2.),
           make("silt", 60e6, 20e6, 45e3, 1.2e-6, 15e3, .09, .12, .05e-6, 2.2, .4e6, 30e3, .05e6, 3.),
           make("sand", 450e6, 200e6, 30e3, .2e-6, 10e3, .28, .25, .015e-6, 4., 1.5e6, 2e3, .2e6, 1.),
           make("sand, 5 kPa cap", 450e6, 200e6, 30e3, .2e-6, 10e3, .28, .25, .015e-6, 4., 5e3, 2e3, .2e6, 1.3),

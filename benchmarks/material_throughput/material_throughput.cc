@@ -3,14 +3,11 @@
 //   material_throughput --repetitions 7 --output result.json
 //
 // Workloads: `elastic`, strains that stay inside of the surface, so that the price of the check is seen; `oedometer`, small steps of
-// uniaxial compression, where every point yields and the cap hardens; `random`, steps of 3e-4 in random directions from random
-// states, where the lanes of a batch need different branches.
+// uniaxial compression, where every point yields and the cap hardens; `random`, for the caps, steps of 3e-4 in random directions,
+// where the lanes of a batch need different branches. The laws are examples of tests/data/laws.
 
 #include <arenite/materials/batch_law.h>
-#include <arenite/materials/geologic_cap.h>
-#include <arenite/materials/linear_elastic_law.h>
-#include <arenite/materials/viscoelastic.h>
-#include <arenite/materials/viscoplastic_cap.h>
+#include <arenite/materials/law_types.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -23,67 +20,10 @@
 #include <string>
 #include <vector>
 
+#include "../../tests/unit/law_example.h"
+
 namespace Arenite
 {
-using Cap = ViscoplasticCap<ConstantStiffness>;
-
-/// What both caps have in common; the tension limits differ.
-template <typename Surface>
-void set_clayey_surface(Surface &surface)
-{
-  surface.alpha            = 64.2e3;
-  surface.gamma            = 5.89e3;
-  surface.beta             = 0.34283e-6;
-  surface.theta            = 0.18257;
-  surface.axis_ratio       = 5.;
-  surface.initial_position = 1e6;
-  surface.hardening_rate   = 9.52e-9;
-  surface.hardening_limit  = 0.2142;
-}
-
-Cap clayey_soil(const double exponent, const Cap::Viscosity viscosity = Cap::Viscosity::perzyna)
-{
-  Cap law;
-  law.stiffness.elastic = {1800., 106.4e6, 63.85e6};
-  set_clayey_surface(law.surface);
-  law.surface.tension_limit = 5e3;
-  law.fluidity              = 200.;
-  law.overstress            = 1e6;
-  law.exponent              = exponent;
-  law.relaxation_time       = 1e-5;
-  law.viscosity             = viscosity;
-  if (const std::string problem = law.surface.finalize(); !problem.empty())
-    throw std::runtime_error(problem);
-  return law;
-}
-
-GeologicCap geologic_soil()
-{
-  GeologicCap law;
-  law.elastic = {1800., 106.4e6, 63.85e6};
-  set_clayey_surface(law.surface);
-  law.tension_cutoff = 5e3;
-  if (const std::string problem = law.surface.finalize(); !problem.empty())
-    throw std::runtime_error(problem);
-  law.derive();
-  return law;
-}
-
-Viscoelastic standard_solid()
-{
-  Viscoelastic law;
-  law.spring          = {1800., 106.4e6, 63.85e6};
-  law.relaxation_time = 1e-4;
-  return law;
-}
-
-LinearElasticLaw linear_elastic()
-{
-  LinearElasticLaw law;
-  law.elastic = {1800., 106.4e6, 63.85e6};
-  return law;
-}
-
 enum class Workload
 {
   elastic,
@@ -116,16 +56,23 @@ std::vector<SymTensor<double>> strains(const Workload workload)
               norm += e[k] * e[k];
             }
           // elastic: to and fro around the unstressed state
-          const double size = workload == Workload::elastic ? (step % 2 ? -8e-6 : 8e-6) : 3e-4;
+          e *= (workload == Workload::elastic ? 2e-6 : 3e-4) / std::sqrt(norm);
           if (workload == Workload::elastic && step % 2)
             e = result[i - n_points] * -1.;
-          else
-            e *= size / std::sqrt(norm);
           if (workload == Workload::random)
             for (int k = 0; k < 3; ++k)
               e[k] -= 5e-5; // compaction on the whole
         }
     }
+  return result;
+}
+
+/// [step][point], one step more than there are strains.
+std::vector<double> densities(const std::vector<SymTensor<double>> &strain, const double at_rest)
+{
+  std::vector<double> result(n_points, at_rest);
+  for (unsigned int i = 0; i < strain.size(); ++i)
+    result.push_back(result[i] * std::exp(-trace(strain[i])));
   return result;
 }
 
@@ -176,7 +123,6 @@ struct Points
   {
     batch_law.law = law_of_points;
     n_history     = batch_law.initial_history().size();
-    density.assign(n_points, batch_law.law.density());
     for (auto *array : {&wave_speed, &stored, &dissipated})
       array->resize(n_points);
     reset();
@@ -190,25 +136,26 @@ struct Points
       history[i] = initial[i / W % n_history];
   }
 
-  /// All points in one call, with strains [point][6][lane].
-  void update(const double *strain)
+  /// All points in one call, with strains [point][6][lane] and the densities of two steps.
+  void update(const double *strain, const double *density)
   {
     PointBatch batch;
     batch.n_points    = n_points / W;
     batch.dt          = dt;
     batch.strain      = strain;
-    batch.density_old = batch.density = density.data();
-    batch.stress                      = stress.data();
-    batch.history                     = history.data();
-    batch.wave_speed                  = wave_speed.data();
-    batch.stored                      = stored.data();
-    batch.dissipated                  = dissipated.data();
+    batch.density_old = density;
+    batch.density     = density + n_points;
+    batch.stress      = stress.data();
+    batch.history     = history.data();
+    batch.wave_speed  = wave_speed.data();
+    batch.stored      = stored.data();
+    batch.dissipated  = dissipated.data();
     static_cast<const BatchLaw &>(batch_law).update(batch);
   }
 
   BatchLawFor<Law, W> batch_law;
   unsigned int        n_history;
-  std::vector<double> density, stress, history, wave_speed, stored, dissipated;
+  std::vector<double> stress, history, wave_speed, stored, dissipated;
 };
 
 struct Timing
@@ -227,26 +174,32 @@ Timing measure(const Law &law, const std::vector<SymTensor<double>> &strain, con
     for (unsigned int k = 0; k < 6; ++k)
       strains[(i / W * 6 + k) * W + i % W] = strain[i][k];
 
-  Points<W, Law> points(law);
-  Timing         timing;
+  const std::vector<double> density = densities(strain, law.density());
+  Points<W, Law>            points(law);
+  Timing                    timing;
+  const auto update = [&](const unsigned int step) { points.update(&strains[step * 6 * n_points], &density[step * n_points]); };
   for (unsigned int repetition = 0; repetition < repetitions; ++repetition)
     {
       points.reset();
       const auto start = std::chrono::steady_clock::now();
       for (unsigned int step = 0; step < n_steps; ++step)
-        points.update(&strains[step * 6 * n_points]);
+        update(step);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       timing.nanoseconds   = std::min(timing.nanoseconds, 1e9 * seconds / (n_points * n_steps));
     }
 
-  // once more, to look at what the points do
+  // once more, to look at what the points do; dissipation below round-off of the energy of the step does not count
   points.reset();
+  const double stiffness = law.density() * std::pow(law.wave_speed_bound(), 2);
   unsigned long plastic = 0;
   for (unsigned int step = 0; step < n_steps; ++step)
     {
-      points.update(&strains[step * 6 * n_points]);
+      update(step);
       for (unsigned int i = 0; i < n_points; ++i)
-        plastic += points.dissipated[i] > 1e-9 * points.stored[i];
+        {
+          const SymTensor<double> &e = strain[step * n_points + i];
+          plastic += points.dissipated[i] > 1e-9 * stiffness * contract(e, e);
+        }
     }
   timing.plastic = double(plastic) / (n_points * n_steps);
 
@@ -259,15 +212,16 @@ Timing measure(const Law &law, const std::vector<SymTensor<double>> &strain, con
       SymTensor<Number>      stress;
       PointIncrement<Number> increment;
       History                history;
-      increment.density_old = increment.density = Number(law.density());
-      increment.dt                              = dt;
+      increment.dt = dt;
       load_history<History, Number>(history, points.history.data() + batch * points.n_history * W);
       for (unsigned int step = 0; step < n_steps; ++step)
         {
           for (unsigned int k = 0; k < 6; ++k)
             increment.strain[k] = load<Number>(&strains[(step * n_points / W + batch) * 6 * W + k * W]);
-          const auto response = law.update(stress, increment, history);
-          stress              = response.stress;
+          increment.density_old = load<Number>(&density[step * n_points + batch * W]);
+          increment.density     = load<Number>(&density[(step + 1) * n_points + batch * W]);
+          const auto response   = law.update(stress, increment, history);
+          stress                = response.stress;
           passes += response.iterations.passes;
           lanes += response.iterations.lanes;
         }
@@ -277,11 +231,13 @@ Timing measure(const Law &law, const std::vector<SymTensor<double>> &strain, con
   return timing;
 }
 
-int run(const unsigned int repetitions, const std::string &output)
+int run(const unsigned int repetitions, const std::string &only, const std::string &output)
 {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  const auto             law  = [&](const std::string &name, const auto &law) {
-    for (const Workload workload : {Workload::elastic, Workload::oedometer, Workload::random})
+  const auto law = [&](const std::string &name, const auto &law, const std::vector<Workload> &workloads) {
+    if (name.find(only) != 0)
+      return;
+    for (const Workload workload : workloads)
       {
         const auto   strain = strains(workload);
         const Timing one = measure<1>(law, strain, repetitions), all = measure<native_lanes>(law, strain, repetitions);
@@ -300,14 +256,40 @@ int run(const unsigned int repetitions, const std::string &output)
                   << 100. * all.waiting << " % waiting" << std::endl;
       }
   };
-  law("viscoplastic cap, N = 1", clayey_soil(1.));
-  law("viscoplastic cap, N = 1.5", clayey_soil(1.5));
-  law("viscoplastic cap, Duvaut-Lions", clayey_soil(1., Cap::Viscosity::duvaut_lions));
-  law("viscoplastic cap, rate independent", clayey_soil(1., Cap::Viscosity::none));
-  law("geologic cap", geologic_soil());
-  law("viscoelastic, standard linear solid", standard_solid());
-  law("linear elastic", linear_elastic());
-  law("traffic of the arrays", Traffic());
+  const std::vector<Workload> simple = {Workload::elastic, Workload::oedometer},
+                              all    = {Workload::elastic, Workload::oedometer, Workload::random};
+  const auto example = [](auto law, const std::string &block) {
+    return law_of_block<decltype(law)>(example_file(decltype(law)::name), block);
+  };
+  const auto examples = [&](const auto &kind, const std::vector<Workload> &workloads,
+                            const std::vector<std::string> &blocks) {
+    for (const std::string &block : blocks)
+      law(std::string(kind.name) + ", " + block, example(kind, block), workloads);
+  };
+
+  using Cap = ViscoplasticCap<ConstantStiffness>;
+  Cap sand  = example(Cap(), "loose sand");
+  for (const double exponent : {1., 1.5})
+    {
+      sand.exponent = exponent;
+      law(exponent == 1. ? "viscoplastic cap, N = 1" : "viscoplastic cap, N = 1.5", sand, all);
+    }
+  sand.relaxation_time = 1e-5;
+  sand.viscosity       = Cap::Viscosity::duvaut_lions;
+  law("viscoplastic cap, Duvaut-Lions", sand, all);
+  sand.viscosity = Cap::Viscosity::none;
+  law("viscoplastic cap, rate independent", sand, all);
+  examples(ViscoplasticCap<SoilStiffness>(), all, {"moist sand"});
+  examples(UndrainedCap(), all, {"saturated sand"});
+  examples(GeologicCap(), all, {"soil"});
+  examples(EquationOfStateWithStrength<SoilStiffening>(), simple, {"moist sand", "saturated clay", "dry sand"});
+  examples(EquationOfStateWithStrength<TabulatedCompaction>(), simple, {"sand"});
+  examples(EquationOfStateWithStrength<PorousCompaction>(), simple, {"stone", "sand"});
+  examples(EquationOfStateWithStrength<ThreePhaseMixture>(), simple, {"air 4 per cent", "saturated"});
+  examples(EquationOfStateWithStrength<MieGrueneisen>(), simple, {"liquid", "clay", "sand"});
+  examples(Viscoelastic(), simple, {"standard"});
+  examples(LinearElasticLaw(), simple, {"soil"});
+  law("traffic of the arrays", Traffic(), simple);
   if (!output.empty())
     std::ofstream(output) << rows.dump(2) << '\n';
   return 0;
@@ -317,12 +299,13 @@ int run(const unsigned int repetitions, const std::string &output)
 int main(int argc, char **argv)
 {
   unsigned int repetitions = 7;
-  std::string  output;
+  std::string  only, output;
   CLI::App     app("Nanoseconds per update of the material laws.");
   app.add_option("--repetitions", repetitions, "Timed repetitions, of which the best counts")
     ->capture_default_str()
     ->check(CLI::Range(2u, 1000u));
+  app.add_option("--only", only, "Laws whose name begins so");
   app.add_option("--output", output, "File for the results (JSON)");
   CLI11_PARSE(app, argc, argv);
-  return Arenite::run(repetitions, output);
+  return Arenite::run(repetitions, only, output);
 }

@@ -9,7 +9,7 @@ program = common.program("material_throughput")
 
 file = common.scratch().with_suffix(".json")
 file.parent.mkdir(exist_ok=True)
-subprocess.run([program, "--repetitions", "3" if study.quick else "25", "--output", file], check=True,
+subprocess.run([program, "--repetitions", "3" if study.quick else "100", "--output", file], check=True,
                env=dict(os.environ, OMP_NUM_THREADS="1"))
 results = json.loads(file.read_text())
 traffic = min(r["lanes_ns"] for r in results if r["law"] == "traffic of the arrays")

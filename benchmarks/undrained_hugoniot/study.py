@@ -36,6 +36,12 @@ rows = []
 for air in (0, 0.001, 0.01, 0.02, 0.04):
     points = curve(air, scratch)
     rows.append({"air [%]": 100 * air, **{f"up = {up:g} m/s": round(interpolated(points, up)) for up in PARTICLE_SPEEDS}})
-print("\n" + common.markdown_table(rows), flush=True)
+table = common.markdown_table(rows)
+print("\n" + table, flush=True)
 if study.write:
     common.write_csv(study.folder / "results.csv", rows)
+    common.report(study.name, f"""## Shocks in wet soil with a little air
+
+Shock speed Us [m/s] by particle speed up, three phase mixture of porosity 40 %; undrained_hugoniot/README.md.
+
+{table}""")

@@ -29,6 +29,8 @@ std::string CapSurface::finalize()
 
   const double h              = axis_ratio * F0_slope;
   smallest_position           = axis_ratio * F0 * (h + std::sqrt(1. + h * h));
+  per_F0                      = 1. / F0;
+  first_ratio                 = smallest_position / F0;
   const double smallest_slope = axis_ratio * (friction_range > 0. ? 0. : theta);
   inner_ratio                 = axis_ratio * (smallest_slope + std::sqrt(1. + smallest_slope * smallest_slope));
   // junction L unique: dX/dL > 0; thirty decay lengths from 0 the exponential is gone

@@ -23,7 +23,15 @@ using D   = TwoDerivatives<double>;
 
 const double K = 106.4e6, G = 63.85e6;
 
-Law sand(const double X0, const double exponent)
+struct Flow
+{
+  Law::Viscosity viscosity;
+  double         exponent = 1.;
+};
+const Flow rate_independent{Law::Viscosity::none}, linear{Law::Viscosity::perzyna},
+  between{Law::Viscosity::perzyna, 1.5}, cubic{Law::Viscosity::perzyna, 3.}, relaxing{Law::Viscosity::duvaut_lions};
+
+Law sand(const double X0, const Flow &flow)
 {
   Law law;
   law.stiffness.elastic        = {2000., K, G};
@@ -37,10 +45,11 @@ Law sand(const double X0, const double exponent)
   law.surface.hardening_limit  = 0.2142;
   law.surface.tension_limit    = 5000.;
   law.surface.small_cap_rule   = true;
-  law.viscosity                = exponent == 0. ? Law::Viscosity::none : Law::Viscosity::perzyna;
+  law.viscosity                = flow.viscosity;
+  law.relaxation_time          = 1e-3;
   law.fluidity                 = 1e4;
   law.overstress               = 1e5;
-  law.exponent                 = std::max(exponent, 1.);
+  law.exponent                 = flow.exponent;
   law.substep_size             = 0.;
   law.gap_closure              = false;
   BOOST_TEST_REQUIRE(law.surface.finalize() == "");
@@ -98,7 +107,7 @@ std::string region(const CapSurface &surface, const State &s, const CapReturn<do
 
 BOOST_AUTO_TEST_SUITE(cap_tangent)
 
-// The four derivatives are those of the return, in every region, viscous and rate independent: differences of fourth order of two step
+// The four derivatives are those of the return, in every region, rate independent, Perzyna and Duvaut-Lions: differences of fourth order of two step
 // sizes; states where these disagree lie next to a switch of the region. Symmetric where nothing hardens, and only there.
 BOOST_AUTO_TEST_CASE(derivatives_of_the_invariants)
 {
@@ -106,9 +115,9 @@ BOOST_AUTO_TEST_CASE(derivatives_of_the_invariants)
   unsigned int                        kinks = 0, n = 0;
   double                              worst = 0., worst_symmetry = 0., hardening_asymmetry = 0.;
   for (const double X0 : {1e6, 1e4})
-    for (const double exponent : {0., 1., 1.5, 3.})
+    for (const Flow &kind : {rate_independent, linear, between, cubic, relaxing})
       {
-        const Law         law     = sand(X0, exponent);
+        const Law         law     = sand(X0, kind);
         const CapSurface &surface = law.surface;
         for (const State &s : states(law, 2000))
           {
@@ -175,9 +184,9 @@ BOOST_AUTO_TEST_CASE(tensor_against_differentiable_numbers)
   double          worst = 0., worst_lanes = 0.;
   std::mt19937_64 random(5);
   const auto      uniform = [&]() { return 2. * (random() >> 11) * 0x1p-53 - 1.; };
-  for (const double exponent : {0., 1., 1.5})
+  for (const Flow &kind : {rate_independent, linear, between, relaxing})
     {
-      const Law  law = sand(1e6, exponent);
+      const Law  law = sand(1e6, kind);
       const auto all = states(law, 400);
       for (unsigned int first = 0; first < all.size(); first += W)
         {
@@ -248,6 +257,23 @@ BOOST_AUTO_TEST_CASE(tensor_against_differentiable_numbers)
   BOOST_TEST_MESSAGE("against differentiable numbers " << worst << ", lanes " << worst_lanes);
   BOOST_TEST(worst < 1e-10);
   BOOST_TEST(worst_lanes < 1e-8);
+}
+
+// Duvaut-Lions mixes the elastic and the rate-independent tangent as it mixes the stresses.
+BOOST_AUTO_TEST_CASE(mixture_of_duvaut_lions)
+{
+  const Law law = sand(1e6, relaxing), inviscid = sand(1e6, rate_independent);
+  double    worst = 0.;
+  for (const State &s : states(law, 2000))
+    {
+      const auto mixed = solved<D>(law.surface, law.flow(s.dt), D(s.I1, 1., 0.), D(s.j, 0., 1.), D(s.xi)),
+                 end   = solved<D>(law.surface, inviscid.flow(s.dt), D(s.I1, 1., 0.), D(s.j, 0., 1.), D(s.xi));
+      const double w   = s.dt / (law.relaxation_time + s.dt);
+      for (int trial = 0; trial < 2; ++trial)
+        worst = std::max({worst, std::abs(mixed.I1.d[trial] - w * end.I1.d[trial] - (trial == 0 ? 1. - w : 0.)),
+                          std::abs(mixed.j.d[trial] - w * end.j.d[trial] - (trial == 1 ? 1. - w : 0.))});
+    }
+  BOOST_TEST(worst < 1e-14);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -177,4 +177,44 @@ BOOST_AUTO_TEST_CASE(random_paths)
     }
 }
 
+// What is surely inside of the surface is inside; and it is most of the inside, so that the question is worth asking. Caps that begin at
+// I1 = 0 are taken for their first one: they have their own count.
+BOOST_AUTO_TEST_CASE(surely_inside)
+{
+  std::mt19937_64 random(11);
+  const auto      uniform   = [&]() { return (random() >> 11) * 0x1p-53; };
+  unsigned int    inside[2] = {0, 0}, sure[2] = {0, 0}, wrong = 0;
+  for (unsigned int set = 0; set < 100; ++set)
+    {
+      GeologicCapSurface s;
+      s.alpha            = std::pow(10., 4. + 3. * uniform());
+      s.gamma            = set % 5 ? s.alpha * 0.9 * uniform() : 0.;
+      s.beta             = set % 7 ? std::pow(10., -8. + 3. * uniform()) : 0.;
+      s.theta            = set % 11 ? 0.3 * uniform() : 0.;
+      s.axis_ratio       = 1. + 5. * uniform();
+      s.hardening_rate   = 1e-8;
+      s.hardening_limit  = 0.2;
+      s.initial_position = 0.2 * s.alpha * uniform();
+      BOOST_TEST_REQUIRE(s.finalize() == "");
+      for (unsigned int i = 0; i < 2000; ++i)
+        {
+          const double X     = s.initial_position + s.smallest_position * (i % 2 ? uniform() : 10. * uniform());
+          const double kappa = s.junction(X), I1 = -0.3 * s.alpha + uniform() * (1.1 * X + 0.3 * s.alpha);
+          const double j   = 1.5 * uniform() * s.failure(std::max(I1, 0.)).value;
+          const auto   cap = s.cap(kappa);
+          const double f   = I1 < cap.L ? j - s.failure(I1).value : std::hypot(j, (I1 - cap.L) / cap.R) - cap.b;
+          const bool   yes = s.surely_inside(I1, j * j, kappa), first = kappa < 0.;
+          inside[first] += f < 0.;
+          sure[first] += yes;
+          wrong += yes && f > 1e-12 * (j + std::abs(I1));
+        }
+    }
+  BOOST_TEST_MESSAGE(sure[0] << " of " << inside[0] << ", caps at 0: " << sure[1] << " of " << inside[1]);
+  BOOST_TEST(inside[0] > 20000u);
+  BOOST_TEST(inside[1] > 2000u);
+  BOOST_TEST(wrong == 0u);
+  BOOST_TEST(sure[0] > 0.8 * inside[0]);
+  BOOST_TEST(sure[1] > 0u);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

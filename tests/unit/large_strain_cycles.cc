@@ -75,6 +75,25 @@ BOOST_AUTO_TEST_CASE(stiffening)
     }
 }
 
+// A pressure that no compression reaches, as a start or a transfer may give it, has an energy that is a number.
+BOOST_AUTO_TEST_CASE(pressure_without_a_density)
+{
+  using Law = ViscoplasticCap<SoilStiffness>;
+  for (const auto viscosity : {Law::Viscosity::perzyna, Law::Viscosity::none})
+    for (const double volume : {-1e-3, 0., 1e-3})
+      {
+        Law law                     = elastic_example<SoilStiffness>("moist sand").law;
+        law.viscosity               = viscosity;
+        auto                   h    = law.initial_history();
+        const double           p    = 2000. * law.stiffness.soil.bulk_modulus;
+        PointIncrement<double> step = {spherical(volume / 3.), law.density(), law.density() * std::exp(-volume), 1e-6};
+        const auto             r    = law.update(spherical(-p), step, h);
+        BOOST_TEST((std::isfinite(r.stored) && r.stored > 0.), r.stored);
+        BOOST_TEST(std::isfinite(r.dissipated), r.dissipated);
+        BOOST_TEST(std::isfinite(r.wave_speed), r.wave_speed);
+      }
+}
+
 // Constant moduli of the Cauchy stress, the form of the source, are meant for small strain: the shear energy G gamma^2/2 belongs to the
 // present volume, so that the cycle returns (1 - e^-0.2) of it more than it received. Exact but for the trapezoidal rule.
 BOOST_AUTO_TEST_CASE(constant_moduli_win_the_change_of_volume)

@@ -9,6 +9,8 @@ namespace Arenite
 ///   Perzyna            f = f0 t,  dlambda = eta dt t^N    (t = f/f0; the fluidity eta -> infinity is rate independent)
 ///   rate independent   f = 0,     dlambda = t
 ///
+/// Duvaut-Lions is rate independent and goes a part of the way from the elastic trial state to that solution.
+///
 /// With t as unknown the equations of the step are well scaled for every eta dt and N: no division by eta dt, no root.
 struct CapFlow
 {
@@ -16,6 +18,7 @@ struct CapFlow
   double fluidity_dt      = 0.; ///< eta dt [-]
   double f0               = 1.; ///< [Pa]
   double exponent         = 1.; ///< N
+  double part_of_way      = 1.; ///< dt/(tau + dt) of Duvaut-Lions; 1 is all of it
 
   template <typename Number>
   struct Rates

@@ -30,7 +30,8 @@ public:
   Iterations iterations() const
   {
     Iterations sum = regions.iterations;
-    return sum += moving_cap.iterations;
+    sum += moving_cap.iterations;
+    return sum += of_junction;
   }
   unsigned int fallbacks() const { return moving_cap.fallbacks; }
 
@@ -85,10 +86,22 @@ public:
         accept(hardens, {p.I1, p.j});
         xi = select(hardens, p.xi, xi);
       }
+    if (flow.part_of_way < 1.)
+      go_a_part_of_the_way(I1_trial, j_trial, xi_n, cap.X);
   }
 
 private:
   using Point = Invariants<Number>;
+
+  /// The invariants and X of Duvaut-Lions, from the trial state towards the rate-independent one.
+  void go_a_part_of_the_way(const Number &I1_trial, const Number &j_trial, const Number &xi_n, const Number &X_n)
+  {
+    const Number w(flow.part_of_way);
+    I1 = I1_trial + w * (I1 - I1_trial);
+    j  = j_trial + w * (j - j_trial);
+    if (any_of(xi > xi_n))
+      xi = surface.junction(Number(X_n + w * (surface.cap(xi).X - X_n)), xi_n, xi, of_junction);
+  }
 
   void accept(const M &where, const Point &p)
   {
@@ -100,5 +113,6 @@ private:
   const CapFlow       &flow;
   CapRegions<Number>   regions;
   HardeningCap<Number> moving_cap;
+  Iterations           of_junction;
 };
 } // namespace Arenite

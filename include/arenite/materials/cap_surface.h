@@ -32,6 +32,7 @@ struct CapSurface : CapParameters
   double tension_center = 0., tension_axis = 0., tension_ratio = 1.; ///< C [Pa], B [Pa], r [-]
   double smallest_position = 0.;                                     ///< X_min [Pa]
   double inner_ratio       = 0.;                                     ///< R e with the smallest slope of Fe
+  double first_ratio = 0., per_F0 = 0.;                              ///< X_min/F0 [-], 1/F0 [1/Pa]
 
   /// Derived constants. @return the rule that the parameters break, with the numbers; empty if all is well.
   std::string finalize();
@@ -109,15 +110,11 @@ struct CapSurface : CapParameters
   template <typename Number>
   Mask<Number> surely_inside(const Number &I1, const Number &J2, const Number &xi) const
   {
-    const Number zero(0.), L = max(xi, zero), I = min(max(I1, zero), L);
-    const auto   F = failure_from_below(I);
-    const Number ratio =
-      select(xi < zero, Number((Number(smallest_position) + xi) * Number(1. / F0)), Number(inner_ratio));
-    const Number       beyond = max(Number(I1 - L), zero), strength = ratio * F.scaled;
-    const Number       v       = (I1 - Number(tension_center)) * Number(1. / tension_ratio);
-    const Mask<Number> tension = I1 < zero, inside_of_tension = J2 + v * v < Number(tension_axis * tension_axis),
-                       inside = F.scale * F.scale * (J2 * ratio * ratio + beyond * beyond) < strength * strength;
-    return (tension && inside_of_tension) || (!tension && inside);
+    const Number zero(0.);
+    const Number ratio = select(xi < zero, Number(Number(first_ratio) + xi * Number(per_F0)), Number(inner_ratio));
+    const Number v     = I1 - Number(tension_center), r(tension_ratio), rB(tension_ratio * tension_axis);
+    const Mask<Number> tension = I1 < zero, inside_of_tension = r * r * J2 + v * v < rB * rB;
+    return (tension && inside_of_tension) || (!tension && surely_below<Number>(I1, J2, max(xi, zero), ratio));
   }
 
   /// k(X) - k(X_n) without cancellation, and dk/dX.

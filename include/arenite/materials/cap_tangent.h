@@ -20,8 +20,8 @@ namespace Arenite
 ///   step.solve(D(I1_t, 1, 0), D(j_t, 0, 1), D(xi_n));       // stress and tangent of one solution
 ///   CapTangent<V> C(s_t, K, G, j_t, step.I1, step.j);
 ///
-/// Duvaut-Lions: pass I1_t + w (I1 - I1_t) and j_t + w (j - j_t), w = dt/(tau + dt), as differentiable numbers.
-/// For one undivided step with constant moduli in which no gap closes.
+/// The mixture of Duvaut-Lions, I1_t + w (I1 - I1_t) with w = dt/(tau + dt), is part of CapReturn, so that its tangent is the same mixture
+/// of 2 G P_dev + K 1(x)1 and the rate-independent one. For one undivided step with constant moduli in which no gap closes.
 template <typename V>
 class CapTangent
 {

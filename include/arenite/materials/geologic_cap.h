@@ -67,6 +67,19 @@ struct GeologicCapSurface : CapParameters
     return Number(hardening_limit) * (Number(1.) - decay(X));
   }
 
+  /// True only inside of failure surface and cap, for kappa not below its start: costs no exponential, root or division. For kappa < 0
+  /// the cap begins at I1 = 0 and reaches X0 at least; else it is the quarter of an ellipse with the axes Fe(L) and R Fe(L).
+  template <typename Number>
+  Mask<Number> surely_inside(const Number &I1, const Number &J2, const Number &kappa) const
+  {
+    const Number       zero(0.), R(axis_ratio), line = Number(F0) + Number(F0_slope) * I1;
+    const Mask<Number> tension = I1 < zero, negative = kappa < zero;
+    const Mask<Number> below_line   = line > zero && J2 < line * line;
+    const Mask<Number> in_first_cap = I1 * I1 + R * R * J2 < Number(initial_position * initial_position);
+    return (tension && below_line) || (!tension && negative && in_first_cap) ||
+           (!tension && !negative && surely_below<Number>(I1, J2, max(kappa, zero), R));
+  }
+
   /// kappa of a cap that ends at X.
   double junction(double X) const;
 
@@ -119,17 +132,26 @@ struct GeologicCap
     const Number            K = Number(elastic.bulk_modulus), G = Number(elastic.shear_modulus);
     const SymTensor<Number> s_n = deviator(stress_n), s_t = s_n + deviator(increment.strain) * Number(Number(2.) * G);
     const Number            I1_trial = -trace(stress_n) - Number(3.) * K * trace(increment.strain);
-    const Number     j_trial = square_root(Number(second_invariant(s_t) + Number(1e-32 * surface.F0 * surface.F0)));
-    Number           I1 = I1_trial, j = j_trial;
-    Response<Number> response;
+    const Number            J2_trial = second_invariant(s_t);
+    Response<Number>        response;
+    response.wave_speed = square_root(Number((K + Number(4. / 3.) * G) / increment.density));
+    if (stays_elastic(I1_trial, J2_trial, history.kappa))
+      {
+        const Number p      = I1_trial * Number(1. / 3.);
+        response.stress     = s_t - spherical(p);
+        response.stored     = elastic.stored_energy(p, J2_trial);
+        response.dissipated = Number(0.);
+        return response;
+      }
+    const Number j_trial = square_root(Number(J2_trial + Number(1e-32 * surface.F0 * surface.F0)));
+    Number       I1 = I1_trial, j = j_trial;
     project(K, G, I1, j, history.kappa, response.iterations);
 
     const Number ratio = j / j_trial, p = I1 * Number(1. / 3.), p_n = pressure(stress_n);
     response.stress = s_t * ratio;
     for (int k = 0; k < 3; ++k)
       response.stress[k] -= p;
-    response.wave_speed = square_root(Number((K + Number(4. / 3.) * G) / increment.density));
-    response.stored     = Number(0.5) * (p * p / K + j * j / G);
+    response.stored = elastic.stored_energy(p, Number(j * j));
     // mean stress : plastic strain
     response.dissipated = contract((s_n + s_t * ratio) * Number(0.5), s_t) * (Number(1.) - ratio) / (Number(2.) * G) -
                           Number(0.5) * (p + p_n) * (I1 - I1_trial) / (Number(3.) * K);
@@ -159,6 +181,15 @@ struct GeologicCap
 
 private:
   std::string path;
+
+  /// True if no lane comes near its surface.
+  template <typename Number>
+  bool stays_elastic(const Number &I1, const Number &J2, const Number &kappa) const
+  {
+    const auto I1_v = value_of(I1);
+    return !any_of(
+      !(I1_v >= Value<Number>(-tension_cutoff) && surface.surely_inside(I1_v, value_of(J2), value_of(kappa))));
+  }
 
   /// Trial invariants -> invariants at t_{n+1}; kappa in place.
   template <typename Number>

@@ -39,6 +39,14 @@ struct LinearElastic
     return (3. * bulk_modulus - 2. * shear_modulus) / (6. * bulk_modulus + 2. * shear_modulus);
   }
 
+  /// p^2/(2 K) + J2/(2 G) [J/m^3], with one division of plain numbers
+  template <typename Number>
+  Number stored_energy(const Number &p, const Number &J2) const
+  {
+    return (p * p * Number(shear_modulus) + J2 * Number(bulk_modulus)) *
+           Number(1. / (2. * bulk_modulus * shear_modulus));
+  }
+
   /// f(name, value, unit) for the log.
   template <typename F>
   void for_each_constant(F &&f) const

@@ -31,7 +31,7 @@ struct LinearElasticLaw
     response.stress =
       stress_n + deviator(increment.strain) * Number(Number(2.) * G) + spherical(Number(K * trace(increment.strain)));
     const Number p      = pressure(response.stress);
-    response.stored     = Number(0.5) * (p * p / K + second_invariant(deviator(response.stress)) / G);
+    response.stored     = elastic.stored_energy(p, second_invariant(deviator(response.stress)));
     response.wave_speed = square_root(Number((K + Number(4. / 3.) * G) / increment.density));
     return response;
   }

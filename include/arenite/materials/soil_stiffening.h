@@ -205,12 +205,10 @@ private:
     return (l * remainder + l * l - remainder) / density_max;
   }
 
-  /// (K_wg/K') (r^K' - 1); K_wg ln r for K' = 0.
+  /// (K_wg/K') (r^K' - 1)
   template <typename Number>
   Number solid(const Number &r) const
   {
-    if (compacted_stiffening == 0.)
-      return Number(compacted_modulus) * Arenite::logarithm<Number>(r);
     return Number(compacted_modulus / compacted_stiffening) *
            (Arenite::power<Number>(r, compacted_stiffening) - Number(1.));
   }

@@ -151,7 +151,7 @@ struct ViscoplasticCap
     else
       {
         response.wave_speed = square_root(Number((moduli.K + Number(4. / 3.) * moduli.G) / increment.density));
-        response.stored     = (p * p * moduli.G + J2 * moduli.K) / (Number(2.) * moduli.K * moduli.G);
+        response.stored     = stiffness.elastic.stored_energy(p, J2);
         response.dissipated = dissipation.volume + dissipation.shear;
       }
     return response;
@@ -185,7 +185,12 @@ struct ViscoplasticCap
   std::vector<std::string> warnings() const;
 
   /// The flow rule of a step.
-  CapFlow flow(const double dt) const { return {viscosity != Viscosity::perzyna, fluidity * dt, overstress, exponent}; }
+  CapFlow flow(const double dt) const
+  {
+    const bool relaxes = viscosity == Viscosity::duvaut_lions && relaxation_time > 0.;
+    return {viscosity != Viscosity::perzyna, fluidity * dt, overstress, exponent,
+            relaxes ? dt / (relaxation_time + dt) : 1.};
+  }
 
   Stiffness   stiffness;
   CapSurface  surface;
@@ -214,13 +219,22 @@ private:
     }
   };
 
+  /// e^z - 1 - z of the logarithmic spring, z = p/K. Beyond z = 10, a compression by a factor of 22000, by its tangent: no density
+  /// leads there, but a stress that a transfer or a user gives may, and must not overflow.
+  template <typename Number>
+  static Number spring_energy(const Number &p, const Number &K)
+  {
+    const Number z = p / K, reached = min(z, Number(10.)), remainder = exponential_remainder(reached);
+    return remainder + (remainder + reached) * (z - reached);
+  }
+
   /// What an inelastic volume strain dissipates per unit [Pa]: p, and where stored energy is that of the reference volume, the elastic
   /// energy of the present volume, which the strain takes from or adds to the body: d(J U) = J U d eps_vp.
   template <typename Number>
   Number pressure_of_flow(const Number &p, const Number &K) const
   {
     if constexpr (Stiffness::changes)
-      return p + K * exponential_remainder(Number(p / K));
+      return p + K * spring_energy(p, K);
     else
       return p;
   }
@@ -243,10 +257,8 @@ private:
   {
     const Number J_n = Number(density()) / increment.density_old, J = Number(density()) / increment.density,
                  per_mean_J = Number(2.) / (J_n + J);
-    const auto volume       = [](const Number &pressure, const Number &K) {
-      return K * exponential_remainder(Number(pressure / K));
-    };
-    const auto shear = [](const Number &invariant, const Number &volume_ratio, const Number &G) {
+    const auto volume       = [](const Number &pressure, const Number &K) { return K * spring_energy(pressure, K); };
+    const auto shear        = [](const Number &invariant, const Number &volume_ratio, const Number &G) {
       return Number(0.5) * invariant * volume_ratio * volume_ratio / G;
     };
     const Number lost = J_n * (volume(p_n, moduli.K_old) - volume(p_n, moduli.K)) +
@@ -348,18 +360,6 @@ private:
     CapReturn<Number> result(surface, rule, K, G);
     result.solve(t.I1, j_trial, history.cap_junction);
     iterations += result.iterations();
-    if (viscosity == Viscosity::duvaut_lions)
-      {
-        const Number w = Number(relaxation_time > 0. ? dt / (relaxation_time + dt) : 1.);
-        result.I1      = t.I1 + w * (result.I1 - t.I1);
-        result.j       = j_trial + w * (result.j - j_trial);
-        if (any_of(result.xi > history.cap_junction))
-          {
-            const Number X_n = surface.cap(history.cap_junction).X;
-            result.xi = surface.junction(Number(X_n + w * (surface.cap(result.xi).X - X_n)), history.cap_junction,
-                                         result.xi, iterations);
-          }
-      }
     history.cap_junction = result.xi;
 
     const Number ratio  = result.j / j_trial;
