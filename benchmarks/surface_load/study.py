@@ -57,12 +57,23 @@ reference = study.run(SCENE, dict(COMMON, **tuning.ELEMENTS["Q4"], **{"Mesh/Cell
                                                                       "Receivers/surface/Interval": 5e-6}), repeat=1)
 print(f"  reference: E_t {reference.errors['surface.displacement.E_t']:.1e}", flush=True)
 
-rule, dispersion = [], {}
+rule, dispersion, waves = [], {}, {}
+
+
+def waveform(run, point):
+    """Upward displacement [micrometre] over time [ms]."""
+    return [(1e3 * t, 1e6 * u) for t, u in zip(run.column(FILE, "t [s]"), run.column(FILE, f"{point}.displacement_z [m]"))]
+
+
+for point in ("p1", "p4"):
+    waves[f"exact to {reference.errors['surface.displacement.E_t']:.0e}, {PLACES[int(point[1]) - 1]} m"] = waveform(reference, point)
 for name, (element, courant, ladder) in CASES.items():
     rows = []
     for across in ladder[:2] if study.quick else ladder:
         run = study.run(SCENE, dict(COMMON, **tuning.ELEMENTS[element], **{"Mesh/Cells across load": across,
                                                                            "Time stepping/Courant number": courant}), timeout=600)
+        if (name, across) in (("Q1, one point", 9), ("Q4", 2)):
+            waves[f"{name}, {WAVE * across / RADIUS:.2g} cells per S wave, {PLACES[3]} m"] = waveform(run, "p4")
         path = PLACES[3] - PLACES[1]
         late = delay(run, reference, "p4") - delay(run, reference, "p2")
         rows.append(study.add(name, run, run.errors["surface.displacement.E_t"], cells_per_wave=WAVE * across / RADIUS,
@@ -116,6 +127,7 @@ print("\n" + common.markdown_table(rule) + "\n\n" + common.markdown_table(border
 if study.write:
     common.figure(study.folder / "dispersion.svg", dispersion, xlabel="cells per S wave", ylabel="relative error of the Rayleigh wave's speed",
                   slopes=(-2, -4))
+    common.figure(study.folder / "waveforms.svg", waves, xlabel="t [ms]", ylabel="upward displacement [um]", loglog=False, markers=False)
 study.finish(f"""Cells per S wave of the pulse's main frequency (wave of {WAVE:.3f} m), for an error of the surface's displacement at {PLACES[0]} to
 {PLACES[-1]} m from the centre, up to {PLACES[-1] * CS / CR / WAVE:.1f} Rayleigh waves (interpolated in the table below):
 
@@ -126,6 +138,7 @@ exact solution ({alone.errors['surface.displacement.E_t']:.1e} with the border {
 
 {common.markdown_table(borders)}
 
+![waveforms](surface_load/waveforms.svg)
 ![dispersion](surface_load/dispersion.svg)
 
 `near`, `far`: errors at the first and last receiver. `speed`: relative error of the Rayleigh wave's speed between the second and the

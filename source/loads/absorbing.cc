@@ -144,7 +144,8 @@ void Sponge<dim>::declare_parameters(Parameters &parameters)
   parameters.add_quantity("End", end, "m", any_value, "Distance from the origin of the outer boundary.");
   parameters.add_quantity(
     "Target reflection", reflection, "-", {0., 1., true, true},
-    "Amplitude that returns from the end. Smaller values damp more and reflect more at the start.");
+    "Amplitude that returns from the end. Smaller values damp more and reflect more at the start: waves that are longer "
+    "than the layer, and pulses with a mean.");
 }
 
 template <int dim>
