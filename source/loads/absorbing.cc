@@ -142,10 +142,10 @@ void Sponge<dim>::declare_parameters(Parameters &parameters)
   parameters.add_vector("Direction", direction, "-", "Unit vector into the layer, for 'plane'.");
   parameters.add_quantity("Start", start, "m", any_value, "Distance from the origin where damping begins.");
   parameters.add_quantity("End", end, "m", any_value, "Distance from the origin of the outer boundary.");
-  parameters.add_quantity(
-    "Target reflection", reflection, "-", {0., 1., true, true},
-    "Amplitude that returns from the end. Smaller values damp more and reflect more at the start: waves that are longer "
-    "than the layer, and pulses with a mean.");
+  parameters.add_quantity("Target reflection", reflection, "-", {0., 1., true, true},
+                          "Amplitude that returns from the end. Smaller values damp more and reflect more at the "
+                          "start: waves that are longer "
+                          "than the layer, and pulses with a mean.");
 }
 
 template <int dim>

@@ -74,8 +74,10 @@ std::shared_ptr<const ExactSolution<dim>> SolutionChoice<dim>::make(const Parame
   if constexpr (dim > 1)
     if (type == "surface load")
       {
-        if (pressure->break_points().size() < 2)
-          parameters.refuse(entry, "needs a pressure that has ended or become constant at some time");
+        if (pressure->regularity() < 0 || pressure->break_points().size() < 2)
+          parameters.refuse(entry,
+                            "needs a pressure that rises without a jump and in finite time, such as 'C3 step' or "
+                            "'sin^n pulse'");
         return std::make_shared<SurfaceLoadMotion<dim>>(material, load_radius, pressure);
       }
   if (type == "plane wave")
