@@ -43,13 +43,14 @@ except ImportError:
 class Run:
     """Results of one scene: run["dofs"] is an entry of run.json, run.errors[...] an error, run.column(...) a receiver.
 
-    core_seconds is the median over the repetitions, spread the largest deviation from it relative to it.
+    core_seconds is the median over the repetitions, spread the largest deviation from it relative to it; fastest the least of them.
     """
 
     def __init__(self, repetitions, directory):
         times = [r["core_seconds"] for r in repetitions]
         self.core_seconds = statistics.median(times)
         self.spread = max(abs(t - self.core_seconds) for t in times) / self.core_seconds if self.core_seconds else 0.
+        self.fastest = min(times)
         self.repetitions = len(times)
         self.values = dict(repetitions[-1], core_seconds=self.core_seconds)
         for name in ("setup_core_seconds", "output_core_seconds", "mdofs_per_core_second"):
