@@ -4,6 +4,7 @@
 #include <arenite/io/receivers.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace Arenite
@@ -195,10 +196,12 @@ void Receivers<dim>::push(const Kind kind, const VectorType &field, const State<
 template <int dim>
 void Receivers<dim>::flush()
 {
+  const auto start = std::chrono::steady_clock::now();
   process(sums_of_own_points());
   headers.clear();
   buffer.clear();
   file->flush();
+  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// [header][own point][u, stress]
@@ -373,6 +376,15 @@ std::map<std::string, double> ReceiverSets<dim>::errors() const
   for (const auto &set : sets)
     result.insert(set->errors().begin(), set->errors().end());
   return result;
+}
+
+template <int dim>
+double ReceiverSets<dim>::output_seconds() const
+{
+  double sum = 0.;
+  for (const auto &set : sets)
+    sum += set->output_seconds();
+  return sum;
 }
 
 template class Receivers<1>;

@@ -86,7 +86,7 @@ void RunRecord::print_summary(Log &log, const OutputDirectory &directory) const
   row("unknowns", "%.0f", static_cast<double>(dofs));
   row("set-up [core s]", "%.2f", setup_core_seconds);
   row("time loop [core s]", "%.2f", core_seconds);
-  row("pictures [core s]", "%.2f", output_core_seconds);
+  row("output [core s]", "%.2f", output_core_seconds);
   row("million unknowns per core second", "%.2f", mdofs_per_core_second());
   row("largest memory of a process [MB]", "%.0f", peak_memory_mb);
 

@@ -217,6 +217,7 @@ void Simulation<dim>::run(const OutputDirectory &directory)
       log.to_file(alarm.what());
       throw;
     }
+  output_seconds += scene.receivers.output_seconds() * Utilities::MPI::n_mpi_processes(communicator);
   record.core_seconds        = core_seconds(start) - output_seconds;
   record.output_core_seconds = output_seconds;
   scene.receivers.finish(); // writes, and evaluates the exact solution: not part of the computation

@@ -50,6 +50,9 @@ public:
 
   const std::vector<dealii::Point<dim>> &positions() const { return location.positions; }
 
+  /// Wall time of what is done when the buffer is full [s].
+  double output_seconds() const { return seconds; }
+
 private:
   enum class Kind : unsigned char
   {
@@ -94,6 +97,7 @@ private:
   unsigned int last_step   = dealii::numbers::invalid_unsigned_int;
   bool         chained     = false; ///< the last record() put u of the step before into the buffer
   bool         row_is_open = false; ///< the last row still needs u of the next step
+  double       seconds     = 0.;    ///< in flush()
 
   // of the points of this process
   unsigned int                       n_own_points = 0;
@@ -119,6 +123,7 @@ public:
 
   std::map<std::string, double> errors() const;
   std::map<std::string, double> norms() const;
+  double                        output_seconds() const; ///< of all sets
 
 private:
   std::vector<std::string>                     names;
