@@ -181,7 +181,8 @@ void Discretization<dim>::add_axis_lines(AffineConstraints<double> &constraints)
               for (unsigned int f = 0; f < 4; ++f)
                 {
                   const auto  &face = cell->face(f);
-                  const double tiny = 1e-10 * face->diameter();
+                  const double tiny =
+                    1e-6 * face->diameter(); // blended meshes place vertices to 1e-9 of a coarse cell only
                   if (!face->at_boundary() || std::abs(face->vertex(0)[0]) > tiny ||
                       std::abs(face->vertex(1)[0]) > tiny)
                     continue;
@@ -213,7 +214,7 @@ void Discretization<dim>::complete_positions()
         largest = std::max(largest, std::abs(positions.local_element(dim * node)));
       largest = Utilities::MPI::max(largest, communicator);
       for (unsigned int node = 0; node < n_owned_nodes(); ++node)
-        if (double &r = positions.local_element(dim * node); std::abs(r) < 1e-12 * largest)
+        if (double &r = positions.local_element(dim * node); std::abs(r) < 1e-8 * largest)
           r = 0.;
     }
   make_consistent(*this, positions);

@@ -1,3 +1,4 @@
+#include <arenite/base/errors.h>
 #include <arenite/time/stable_time_step.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -193,6 +194,8 @@ void StableTimeStep<dim>::update(Dynamics<dim> &dynamics)
   const double assembled = assembled_bound(dynamics, elements);
   element_step           = 2. / std::sqrt(elements);
   critical_step          = 2. / std::sqrt(std::min(elements, assembled));
+  if (!(critical_step > 0. && std::isfinite(critical_step)))
+    throw InputError("[Mesh]: no step is stable on this mesh; some node has no mass, or some cell no volume.");
 }
 
 template <int dim>
