@@ -22,7 +22,7 @@ std::array<double, 3> needed_cells_per_wave(const ElementChoice &element)
     case 1:
       return {5.6, 19., 60.};
     case 2:
-      return {2.1, 6.0, 15.};
+      return {2.0, 6.0, 15.};
     case 3:
       return {1.2, 3.0, 7.4};
     default:
