@@ -35,6 +35,7 @@ try:
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    plt.rcParams.update({"svg.hashsalt": "arenite", "svg.fonttype": "none", "font.size": 10})  # equal results, equal files
 except ImportError:
     stop("the figures need matplotlib (Debian: apt-get install python3-matplotlib)")
 
@@ -197,7 +198,6 @@ def rate(rows, x, y):
 
 def figure(path, series, xlabel="core-seconds", ylabel="error", title="", slopes=(), loglog=True, markers=True):
     """One curve per series, {name: [(x, y), ...]}; slopes draws guides of these orders. The suffix of path is the format."""
-    plt.rcParams.update({"svg.hashsalt": "arenite", "svg.fonttype": "none", "font.size": 10})
     drawing, axes = plt.subplots(figsize=(6.4, 4.4))
     for i, (name, points) in enumerate(series.items()):
         points = sorted(points)

@@ -175,7 +175,7 @@ AXES["triaxial_low"] = AXES["triaxial_high"] = ("axial strain [%]", "q [kPa]", l
                                                 lambda r: [q / 1e3 for q in r["q"]])
 if not study.write:
     sys.exit()
-plt.rcParams.update({"svg.hashsalt": "arenite", "svg.fonttype": "none", "font.size": 8})
+plt.rcParams["font.size"] = 8
 drawing, grid = plt.subplots(3, 5, figsize=(13, 7.4), constrained_layout=True)
 for axes, (parameter, test, speed, last) in zip(grid.flat, PANELS):
     xlabel, ylabel, x, y = AXES[test]

@@ -190,7 +190,7 @@ if not study.write:
     sys.exit()
 
 # --- figure and report ----------------------------------------------------------------------------------------------------------
-plt.rcParams.update({"svg.hashsalt": "arenite", "svg.fonttype": "none", "font.size": 8})
+plt.rcParams["font.size"] = 8
 drawing, (density, velocity, bar, lateral) = plt.subplots(1, 4, figsize=(14, 3.6), constrained_layout=True)
 for name, style in (("moist, W = air", "k-"), ("dry, W = air", "b--"), ("dry, W fitted, all rows", "r:")):
     result = shocks[name][1]

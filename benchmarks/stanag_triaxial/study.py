@@ -151,7 +151,7 @@ if not study.write:
     sys.exit()
 
 # --- figure ---------------------------------------------------------------------------------------------------------------------
-plt.rcParams.update({"svg.hashsalt": "arenite", "svg.fonttype": "none", "font.size": 8})
+plt.rcParams["font.size"] = 8
 drawing, (plane, angles, stress, caps) = plt.subplots(1, 4, figsize=(14, 3.5), constrained_layout=True)
 colours = dict(zip(DATA, ("tab:blue", "tab:orange", "tab:green", "tab:red")))
 for name, points in DATA.items():

@@ -73,7 +73,6 @@ print("\n" + table + "\n\n" + limits, flush=True)
 
 if study.write:
     common.write_csv(study.folder / "results.csv", rows)
-    plt.rcParams.update({"svg.hashsalt": "arenite", "svg.fonttype": "none", "font.size": 10})
     drawing, axes = plt.subplots(figsize=(7.2, 4.4))
     names = list(dict.fromkeys(row["element"] for row in rows))
     bars = [(size, ranks) for size in SIZES.values() for ranks in (1, 2)]
