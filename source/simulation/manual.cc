@@ -61,21 +61,25 @@ subsection Receivers
   end
 end
 )";
+
+/// What @p object declares, in @p section or, if that is empty, on its own; @p entries: what it reads while it declares.
+template <typename Object>
+std::string entries_of(Object &object, const std::string &setting, const std::string &section, Parameters entries = {})
+{
+  if (section.empty())
+    object.declare_parameters(entries);
+  else
+    {
+      const auto inside = entries.section(section);
+      object.declare_parameters(entries);
+    }
+  return "\nEntries of `set " + setting + "`:\n\n" + entries.manual();
+}
+
 template <int dim>
 std::string entries_of_mesh(const std::string &name)
 {
-  Parameters entries;
-  const auto geometry = geometries<dim>().make(name);
-  {
-    const auto section = entries.section("Mesh");
-    geometry->declare_parameters(entries);
-  }
-  return "\nEntries of `set Type = " + name + "`:\n\n" + entries.manual();
-}
-
-bool contains(const std::vector<std::string> &list, const std::string &name)
-{
-  return std::find(list.begin(), list.end(), name) != list.end();
+  return entries_of(*geometries<dim>().make(name), "Type = " + name, "Mesh");
 }
 } // namespace
 
@@ -92,7 +96,7 @@ std::string complete_manual()
   for (const std::string &name : geometries<3>().names())
     text += entries_of_mesh<3>(name);
   for (const std::string &name : geometries<2>().names())
-    if (!contains(geometries<3>().names(), name))
+    if (const auto &known = geometries<3>().names(); std::find(known.begin(), known.end(), name) == known.end())
       text += "\nIn two dimensions only: " + name + ".\n" + entries_of_mesh<2>(name);
 
   text += "\n# Laws\n\nEntries of a block, `subsection Materials / <block>`, beside those above. Scenes take `linear "
@@ -100,46 +104,30 @@ std::string complete_manual()
           "`arenite material` takes all.\n\n" +
           material_laws(1).catalogue();
   for (const std::string &name : material_laws(1).names())
-    {
-      Parameters entries;
-      const auto law = material_laws(1).make(name);
-      {
-        const auto section = entries.section("Materials");
-        law->declare_parameters(entries);
-      }
-      text += "\nEntries of `set Law = " + name + "`:\n\n" + entries.manual();
-    }
+    text += entries_of(*material_laws(1).make(name), "Law = " + name, "Materials");
 
   text += "\n# Strengths\n\nEntries of the laws that have `Strength`, by its value; `none` has no others.\n";
   for (const std::string name : {ElasticShear::name, MisesStrength::name, FrictionStrength::name})
     {
-      Parameters entries = Parameters::from_text("subsection Materials\nset Strength = " + name + "\nend\n", "manual");
-      SelectedStrength strength;
-      {
-        const auto section = entries.section("Materials");
-        strength.declare_parameters(entries);
-      }
-      text += "\nEntries of `set Strength = " + name + "`:\n\n" + entries.manual();
+      SelectedStrength  strength;
+      const std::string setting = "Strength = " + name;
+      text += entries_of(strength, setting, "Materials",
+                         Parameters::from_text("subsection Materials\nset " + setting + "\nend\n", "manual"));
     }
 
   text += "\n# Tests of a material\n\n`arenite material FILE.prm` does one of these to one point:\n\n" +
           MaterialTest::catalogue();
   for (const std::string &name : MaterialTest::names())
     {
-      Parameters   entries = Parameters::from_text("subsection Test\nset Type = " + name + "\nend\n", "manual");
-      MaterialTest test;
-      test.declare_parameters(entries);
-      text += "\nEntries of `set Type = " + name + "`:\n\n" + entries.manual();
+      MaterialTest      test;
+      const std::string setting = "Type = " + name;
+      text +=
+        entries_of(test, setting, "", Parameters::from_text("subsection Test\nset " + setting + "\nend\n", "manual"));
     }
 
   text += "\n# Histories\n";
   for (const std::string &name : time_history_names())
-    {
-      Parameters entries;
-      const auto history = make_time_history(name);
-      history->declare_parameters(entries);
-      text += "\nEntries of `set History = " + name + "`:\n\n" + entries.manual();
-    }
+    text += entries_of(*make_time_history(name), "History = " + name, "");
   return text;
 }
 } // namespace Arenite

@@ -184,16 +184,14 @@ void Simulation<dim>::describe_cost()
       text << "\nAdaptive   " << triangulation.n_global_active_cells() << " cells now, " << std::uint64_t(finest)
            << " if all were fine; a change of the mesh costs about as much as 100 steps";
     }
-  double slowest = std::numeric_limits<double>::max();
-  for (const Block &block : scene.blocks)
-    slowest = std::min(slowest, block.material.s_wave_speed());
-  std::string resolution =
-    describe_resolution(triangulation, *dynamics, scene.element, slowest, scene.end_time, communicator);
   if (scene.pictures.enabled())
     text << "\nOutput     " << scene.pictures.expected_pictures(scene.end_time) << " pictures of at most "
          << 1e-6 * scene.pictures.expected_bytes(discretization) << " MB each before compression";
   log.line(text.str());
-  log << resolution;
+  double slowest = std::numeric_limits<double>::max();
+  for (const Block &block : scene.blocks)
+    slowest = std::min(slowest, block.material.s_wave_speed());
+  log << describe_resolution(triangulation, *dynamics, scene.element, slowest, scene.end_time, communicator);
 }
 
 template <int dim>

@@ -193,29 +193,29 @@ dealii::SymmetricTensor<2, 3> TorsionMode::mode_stress(const dealii::Point<3> &x
 }
 
 template <int dim>
-LameMode<dim>::LameMode(const LinearElastic &material, const double side, const unsigned int number)
+HarmonicMode<dim>::HarmonicMode(const LinearElastic &material, const double length, const unsigned int number)
   : FreeVibration<dim>(material)
-  , side(side)
+  , length(length)
 {
   this->number = number;
 }
 
 template <int dim>
-double LameMode<dim>::wave_number() const
+double HarmonicMode<dim>::wave_number() const
 {
-  return this->number * PI / side;
+  return this->number * PI / length;
 }
 
 template <int dim>
 double LameMode<dim>::angular_frequency() const
 {
-  return std::sqrt(2.) * this->material.s_wave_speed() * wave_number();
+  return std::sqrt(2.) * this->material.s_wave_speed() * this->wave_number();
 }
 
 template <int dim>
 dealii::Tensor<1, dim> LameMode<dim>::mode(const dealii::Point<dim> &x) const
 {
-  const double           k = wave_number();
+  const double           k = this->wave_number();
   dealii::Tensor<1, dim> phi;
   phi[0] = std::cos(k * x[0]) * std::sin(k * x[1]);
   phi[1] = -std::sin(k * x[0]) * std::cos(k * x[1]);
@@ -225,7 +225,7 @@ dealii::Tensor<1, dim> LameMode<dim>::mode(const dealii::Point<dim> &x) const
 template <int dim>
 dealii::SymmetricTensor<2, 3> LameMode<dim>::mode_stress(const dealii::Point<dim> &x) const
 {
-  const double                  k = wave_number();
+  const double                  k = this->wave_number();
   dealii::SymmetricTensor<2, 3> stress;
   stress[1][1] = 2. * this->material.shear_modulus * k * std::sin(k * x[0]) * std::sin(k * x[1]);
   stress[0][0] = -stress[1][1];
@@ -233,30 +233,16 @@ dealii::SymmetricTensor<2, 3> LameMode<dim>::mode_stress(const dealii::Point<dim
 }
 
 template <int dim>
-ShearMode<dim>::ShearMode(const LinearElastic &material, const double height, const unsigned int number)
-  : FreeVibration<dim>(material)
-  , height(height)
-{
-  this->number = number;
-}
-
-template <int dim>
-double ShearMode<dim>::wave_number() const
-{
-  return this->number * PI / height;
-}
-
-template <int dim>
 double ShearMode<dim>::angular_frequency() const
 {
-  return this->material.s_wave_speed() * wave_number();
+  return this->material.s_wave_speed() * this->wave_number();
 }
 
 template <int dim>
 dealii::Tensor<1, dim> ShearMode<dim>::mode(const dealii::Point<dim> &x) const
 {
   dealii::Tensor<1, dim> phi;
-  phi[0] = std::sin(wave_number() * x[1]);
+  phi[0] = std::sin(this->wave_number() * x[1]);
   return phi;
 }
 
@@ -264,7 +250,7 @@ template <int dim>
 dealii::SymmetricTensor<2, 3> ShearMode<dim>::mode_stress(const dealii::Point<dim> &x) const
 {
   dealii::SymmetricTensor<2, 3> stress;
-  stress[0][1] = this->material.shear_modulus * wave_number() * std::cos(wave_number() * x[1]);
+  stress[0][1] = this->material.shear_modulus * this->wave_number() * std::cos(this->wave_number() * x[1]);
   return stress;
 }
 
@@ -283,30 +269,21 @@ double rayleigh_speed(const LinearElastic &material)
 
 template <int dim>
 RayleighMode<dim>::RayleighMode(const LinearElastic &material, const double length, const unsigned int number)
-  : FreeVibration<dim>(material)
-  , length(length)
+  : HarmonicMode<dim>(material, length, number)
   , q(std::sqrt(1. - std::pow(rayleigh_speed(material) / material.p_wave_speed(), 2)))
   , s(std::sqrt(1. - std::pow(rayleigh_speed(material) / material.s_wave_speed(), 2)))
-{
-  this->number = number;
-}
-
-template <int dim>
-double RayleighMode<dim>::wave_number() const
-{
-  return this->number * PI / length;
-}
+{}
 
 template <int dim>
 double RayleighMode<dim>::angular_frequency() const
 {
-  return rayleigh_speed(this->material) * wave_number();
+  return rayleigh_speed(this->material) * this->wave_number();
 }
 
 template <int dim>
 dealii::Tensor<1, dim> RayleighMode<dim>::mode(const dealii::Point<dim> &x) const
 {
-  const double           k = wave_number(), P = std::exp(k * q * x[dim - 1]), S = std::exp(k * s * x[dim - 1]);
+  const double           k = this->wave_number(), P = std::exp(k * q * x[dim - 1]), S = std::exp(k * s * x[dim - 1]);
   dealii::Tensor<1, dim> phi;
   phi[0]       = -(P - 2. * q * s / (1. + s * s) * S) * std::sin(k * x[0]);
   phi[dim - 1] = q * (P - 2. / (1. + s * s) * S) * std::cos(k * x[0]);
@@ -317,7 +294,7 @@ template <int dim>
 dealii::SymmetricTensor<2, 3> RayleighMode<dim>::mode_stress(const dealii::Point<dim> &x) const
 {
   constexpr int v = dim - 1;
-  const double  k = wave_number(), P = std::exp(k * q * x[v]), S = std::exp(k * s * x[v]);
+  const double  k = this->wave_number(), P = std::exp(k * q * x[v]), S = std::exp(k * s * x[v]);
   const double  cosine = std::cos(k * x[0]), sine = std::sin(k * x[0]);
 
   dealii::Tensor<2, dim> gradient;
@@ -334,6 +311,8 @@ template class FreeVibration<3>;
 template class BreathingMode<1>;
 template class BreathingMode<2>;
 template class BreathingMode<3>;
+template class HarmonicMode<2>;
+template class HarmonicMode<3>;
 template class LameMode<2>;
 template class LameMode<3>;
 template class ShearMode<2>;

@@ -76,39 +76,46 @@ private:
   double wave_number = 0.;
 };
 
+/// A mode that is harmonic along the axes, with n half waves on a length L: k = n pi/L [1/m].
+template <int dim>
+class HarmonicMode : public FreeVibration<dim>
+{
+public:
+  HarmonicMode(const LinearElastic &material, double length, unsigned int number = 1);
+
+protected:
+  double wave_number() const;
+
+private:
+  double length;
+};
+
 /// Lame mode of the free cube [0, L]^dim (dim >= 2): phi = (cos kx sin ky, -sin kx cos ky, 0), k = n pi/L, w = sqrt(2)
 /// cs k. No traction on any face and no change of volume, for every bulk modulus: shows volumetric locking.
 template <int dim>
-class LameMode : public FreeVibration<dim>
+class LameMode : public HarmonicMode<dim>
 {
 public:
-  LameMode(const LinearElastic &material, double side, unsigned int number = 1);
+  using HarmonicMode<dim>::HarmonicMode;
 
   double                        angular_frequency() const override;
   dealii::Tensor<1, dim>        mode(const dealii::Point<dim> &x) const override;
   dealii::SymmetricTensor<2, 3> mode_stress(const dealii::Point<dim> &x) const override;
-
-private:
-  double side;
-  double wave_number() const;
 };
 
 /// Shear of a layer 0 < y < H between fixed planes (dim >= 2): phi = sin(n pi y/H) e_x, w = cs n pi/H. On x = const
 /// only the normal displacement is free of traction: prescribe the displacement, or u_y = u_z = 0, there.
 template <int dim>
-class ShearMode : public FreeVibration<dim>
+class ShearMode : public HarmonicMode<dim>
 {
 public:
-  ShearMode(const LinearElastic &material, double height, unsigned int number = 1);
+  using HarmonicMode<dim>::HarmonicMode;
 
   double                        angular_frequency() const override;
   dealii::Tensor<1, dim>        mode(const dealii::Point<dim> &x) const override;
   dealii::SymmetricTensor<2, 3> mode_stress(const dealii::Point<dim> &x) const override;
-
-private:
-  double height;
-  double wave_number() const;
 };
+
 /// Standing Rayleigh wave (dim >= 2) below the free surface x_v = 0 of a half-space, v the last coordinate, between smooth walls at x_1 = 0
 /// and L, k = n pi/L, w = k cR:
 ///
@@ -117,7 +124,7 @@ private:
 ///
 /// Down to 6 wavelengths below the surface it decays to 4e-7 (nu = 1/4); prescribe the displacement there. Source: Rayleigh (1885).
 template <int dim>
-class RayleighMode : public FreeVibration<dim>
+class RayleighMode : public HarmonicMode<dim>
 {
 public:
   RayleighMode(const LinearElastic &material, double length, unsigned int number = 1);
@@ -127,8 +134,6 @@ public:
   dealii::SymmetricTensor<2, 3> mode_stress(const dealii::Point<dim> &x) const override;
 
 private:
-  double length;
-  double wave_number() const;
   double q, s; ///< decay with depth over k
 };
 
