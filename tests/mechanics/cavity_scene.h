@@ -4,8 +4,19 @@
 
 namespace Arenite::Test
 {
+/// Soil of the reference cases.
+inline const std::string reference_soil = R"(
+subsection Materials
+  subsection solid
+    set Density       = 2200
+    set Young modulus = 200e6
+    set Poisson ratio = 0.3
+  end
+end
+)";
+
 /// Pressure step in a cavity of 0.1 m, soil of the reference cases, b = 3a, spectral elements of degree 4.
-inline const std::string cavity_scene = R"(
+inline const std::string cavity_scene = reference_soil + R"(
 set End time  = 3e-3
 set Loads     = cavity pressure, far field
 set Receivers = array
@@ -15,13 +26,6 @@ subsection Mesh
 end
 subsection Element
   set Type = spectral element
-end
-subsection Materials
-  subsection solid
-    set Density       = 2200
-    set Young modulus = 200e6
-    set Poisson ratio = 0.3
-  end
 end
 subsection Loads
   subsection cavity pressure

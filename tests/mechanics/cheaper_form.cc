@@ -42,7 +42,7 @@ Lines together(Lines a, const Lines &b)
 }
 
 /// Pressure on one end of a bar in uniaxial strain.
-const std::string bar_scene = R"(
+const std::string bar_scene = reference_soil + R"(
 set End time  = 3e-3
 set Loads     = push
 set Receivers = points
@@ -54,13 +54,6 @@ end
 subsection Element
   set Type   = spectral element
   set Degree = 3
-end
-subsection Materials
-  subsection solid
-    set Density       = 2200
-    set Young modulus = 200e6
-    set Poisson ratio = 0.3
-  end
 end
 subsection Loads
   subsection push
@@ -84,18 +77,11 @@ end
 /// A body without load, without the sections that depend on it.
 std::string free_body(const std::string &mesh, const std::string &solution)
 {
-  return R"(
+  return reference_soil + R"(
 set End time = 1e-3
 subsection Mesh
   set Type = )" +
          mesh + R"(
-end
-subsection Materials
-  subsection solid
-    set Density       = 2200
-    set Young modulus = 200e6
-    set Poisson ratio = 0.3
-  end
 end
 subsection Initial conditions
   set State = exact solution
@@ -108,18 +94,11 @@ end
 }
 
 /// Cavity in a quarter of a half-space.
-const std::string half_space_scene = R"(
+const std::string half_space_scene = reference_soil + R"(
 set End time = 1e-3
 set Loads    = cavity pressure, far field
 subsection Mesh
   set Type = half-space
-end
-subsection Materials
-  subsection solid
-    set Density       = 2200
-    set Young modulus = 200e6
-    set Poisson ratio = 0.3
-  end
 end
 subsection Loads
   subsection cavity pressure
