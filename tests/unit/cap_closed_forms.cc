@@ -9,6 +9,8 @@
 #include <cmath>
 #include <functional>
 
+#include "loose_sand.h"
+
 using namespace Arenite;
 
 namespace
@@ -20,22 +22,14 @@ const double K = 106.4e6, G = 63.85e6;
 BatchLawFor<Law, 1> sand(const double exponent)
 {
   BatchLawFor<Law, 1> batch;
-  Law                &law      = batch.law;
-  law.stiffness.elastic        = {2000., K, G};
-  law.surface.alpha            = 64200.;
-  law.surface.gamma            = 5890.;
-  law.surface.beta             = 3.4283e-7;
-  law.surface.theta            = 0.18257;
-  law.surface.axis_ratio       = 5.;
-  law.surface.initial_position = 1e6;
-  law.surface.hardening_rate   = 9.52e-9;
-  law.surface.hardening_limit  = 0.2142;
-  law.surface.tension_limit    = 5000.;
-  law.fluidity                 = 200.;
-  law.overstress               = 1e6;
-  law.exponent                 = exponent;
-  law.substep_size             = 0.;
-  law.gap_closure              = false;
+  Law                &law = batch.law;
+  law.stiffness.elastic   = {2000., K, G};
+  law.surface             = loose_sand();
+  law.fluidity            = 200.;
+  law.overstress          = 1e6;
+  law.exponent            = exponent;
+  law.substep_size        = 0.;
+  law.gap_closure         = false;
   BOOST_REQUIRE(law.surface.finalize() == "");
   return batch;
 }

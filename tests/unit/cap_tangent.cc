@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "loose_sand.h"
+
 using namespace Arenite;
 
 namespace
@@ -34,24 +36,16 @@ const Flow rate_independent{Law::Viscosity::none}, linear{Law::Viscosity::perzyn
 Law sand(const double X0, const Flow &flow)
 {
   Law law;
-  law.stiffness.elastic        = {2000., K, G};
-  law.surface.alpha            = 64200.;
-  law.surface.gamma            = 5890.;
-  law.surface.beta             = 3.4283e-7;
-  law.surface.theta            = 0.18257;
-  law.surface.axis_ratio       = 5.;
-  law.surface.initial_position = X0;
-  law.surface.hardening_rate   = 9.52e-9;
-  law.surface.hardening_limit  = 0.2142;
-  law.surface.tension_limit    = 5000.;
-  law.surface.small_cap_rule   = true;
-  law.viscosity                = flow.viscosity;
-  law.relaxation_time          = 1e-3;
-  law.fluidity                 = 1e4;
-  law.overstress               = 1e5;
-  law.exponent                 = flow.exponent;
-  law.substep_size             = 0.;
-  law.gap_closure              = false;
+  law.stiffness.elastic      = {2000., K, G};
+  law.surface                = loose_sand(X0);
+  law.surface.small_cap_rule = true;
+  law.viscosity              = flow.viscosity;
+  law.relaxation_time        = 1e-3;
+  law.fluidity               = 1e4;
+  law.overstress             = 1e5;
+  law.exponent               = flow.exponent;
+  law.substep_size           = 0.;
+  law.gap_closure            = false;
   BOOST_TEST_REQUIRE(law.surface.finalize() == "");
   return law;
 }

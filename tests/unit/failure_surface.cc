@@ -5,25 +5,17 @@
 #include <cmath>
 #include <string>
 
+#include "loose_sand.h"
+
 using namespace Arenite;
 using boost::test_tools::tolerance;
 
 namespace
 {
-/// A loose sand, of thesis' order of size.
 CapSurface sand(const double largest_strength)
 {
-  CapSurface s;
-  s.alpha            = 64200.;
-  s.gamma            = 5890.;
-  s.beta             = 3.4283e-7;
-  s.theta            = 0.18257;
+  CapSurface s       = loose_sand();
   s.largest_strength = largest_strength;
-  s.axis_ratio       = 5.;
-  s.initial_position = 1e6;
-  s.hardening_rate   = 9.52e-9;
-  s.hardening_limit  = 0.2142;
-  s.tension_limit    = 5000.;
   return s;
 }
 } // namespace
