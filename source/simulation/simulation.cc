@@ -1,6 +1,7 @@
 #include <arenite/base/errors.h>
 #include <arenite/base/values.h>
 #include <arenite/io/error_norms.h>
+#include <arenite/simulation/block_summary.h>
 #include <arenite/simulation/resolution.h>
 #include <arenite/simulation/simulation.h>
 
@@ -274,10 +275,27 @@ void Simulation<dim>::run(const OutputDirectory &directory)
         record.errors.merge(traction_error(discretization, material_of_block(), state.displacement, loaded,
                                            *scene.exact_solution, state.time));
     }
+  record_dissipation();
   if (n_adaptations > 0)
     log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
         << 100. * adaptation_seconds / record.core_seconds << " % of the run); the front met "
         << scene.adaptor.coarse_cells_met() << " cells before they were refined\n";
+}
+
+/// What the points dissipated, for run.json and the log.
+template <int dim>
+void Simulation<dim>::record_dissipation()
+{
+  const BlockEnergy   own = dynamics->stored_energy(state);
+  std::vector<double> sums{own.dissipated, own.bulk_viscosity, own.hourglass};
+  Utilities::MPI::sum(sums, communicator, sums);
+  record.dissipation            = record.symmetry_factor * sums[0];
+  record.artificial_dissipation = record.symmetry_factor * sums[1];
+  record.hourglass_energy       = record.symmetry_factor * sums[2];
+  std::vector<std::string> names;
+  for (const Block &block : scene.blocks)
+    names.push_back(block.name);
+  log << describe_blocks(*dynamics, state, names, record.symmetry_factor);
 }
 
 template <int dim>
