@@ -73,6 +73,7 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
   {
     const auto section = parameters.section("Initial conditions");
     parameters.add_choice("State", initial_state, {"rest", "exact solution"}, "Displacement and velocity at t = 0.");
+    initial_velocity.declare_parameters(parameters);
   }
   time_step.declare_parameters(parameters);
   adaptor.declare_parameters(parameters);
@@ -99,6 +100,7 @@ void Scene<dim>::finalize(Parameters &parameters)
   for (auto &load : loads)
     load->finalize(parameters, *mesh.geometry);
   constraints.finalize(parameters, *mesh.geometry);
+  initial_velocity.finalize(parameters, block_names);
   time_step.finalize(parameters);
   adaptor.finalize(parameters, mesh, *mesh.geometry);
   receivers.finalize(parameters);
