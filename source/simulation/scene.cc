@@ -98,7 +98,11 @@ void Scene<dim>::finalize(Parameters &parameters)
                           "is the id of block '" + position->second + "' too");
     }
   for (auto &load : loads)
-    load->finalize(parameters, *mesh.geometry);
+    {
+      load->finalize(parameters, *mesh.geometry);
+      if (kinematics == "finite strain")
+        load->use_finite_strain();
+    }
   constraints.finalize(parameters, *mesh.geometry);
   initial_velocity.finalize(parameters, block_names);
   time_step.finalize(parameters);
