@@ -2,10 +2,11 @@
 #include <arenite/loads/deformed_faces.h>
 
 #include <deal.II/base/tensor.h>
+#include <deal.II/base/utilities.h>
+#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_tools.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 
@@ -41,35 +42,9 @@ template <int dim>
 void DeformedFaces<dim>::reinit(const Discretization<dim>             &new_discretization,
                                 const std::vector<types::boundary_id> &ids)
 {
-  discretization       = &new_discretization;
+  discretization = &new_discretization;
+  make_shares();
   const unsigned int p = discretization->degree(), per_line = p + 1;
-  const auto         rule = face_rule<dim>(face_points(p));
-  const FE_Q<1>      line(QGaussLobatto<1>(p + 1)); // the nodes of a line of the element
-  const auto         of_line = FETools::lexicographic_to_hierarchic_numbering<1>(p);
-
-  n = 1;
-  for (unsigned int k = 1; k < dim; ++k)
-    n *= per_line;
-  weight = rule.get_weights();
-  shape.assign(rule.size() * n, 1.);
-  slope.assign(rule.size() * n * n_tangents, 0.);
-  if constexpr (dim > 1)
-    for (unsigned int q = 0; q < rule.size(); ++q)
-      for (unsigned int a = 0; a < n; ++a)
-        {
-          const unsigned int index[] = {a % per_line, a / per_line};
-          double            *slopes  = &slope[(q * n + a) * n_tangents];
-          std::fill_n(slopes, n_tangents, 1.);
-          for (unsigned int k = 0; k < dim - 1; ++k)
-            {
-              const Point<1> xi(rule.point(q)[k]);
-              const double   value = line.shape_value(of_line[index[k]], xi);
-              shape[q * n + a] *= value;
-              for (unsigned int d = 0; d < dim - 1; ++d)
-                slopes[d] *= d == k ? line.shape_grad(of_line[index[k]], xi)[0] : value;
-            }
-        }
-
   face_nodes.clear();
   sign.clear();
   for (unsigned int cell = 0; cell < discretization->cells().size(); ++cell)
@@ -88,6 +63,46 @@ void DeformedFaces<dim>::reinit(const Discretization<dim>             &new_discr
       }
   area = discretization->new_vector();
   find_nodes();
+}
+
+/// Products of the shape functions along the lines of the face.
+template <int dim>
+void DeformedFaces<dim>::make_shares()
+{
+  const unsigned int p = discretization->degree(), per_line = p + 1;
+  const FE_Q<1>      line(QGaussLobatto<1>(p + 1)); // of the element's nodes
+  const auto         of_line = FETools::lexicographic_to_hierarchic_numbering<1>(p);
+  const auto         rule    = face_rule<dim>(face_points(p));
+  weight                     = rule.get_weights();
+  n                          = Utilities::pow(per_line, dim - 1);
+  position.resize(n);
+  part.resize(n);
+  shares.clear();
+  start.assign(1, 0);
+  for (unsigned int q = 0; q < rule.size(); ++q)
+    {
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          Share share{a, 1., {}};
+          share.slope.fill(dim == 1 ? 0. : 1.);
+          if constexpr (dim > 1)
+            for (unsigned int k = 0, i = a; k < dim - 1; ++k, i /= per_line)
+              {
+                const Point<1>     xi(rule.point(q)[k]);
+                const unsigned int index = of_line[i % per_line];
+                const double       value = line.shape_value(index, xi);
+                share.value *= value;
+                for (unsigned int d = 0; d < dim - 1; ++d)
+                  share.slope[d] *= d == k ? line.shape_grad(index, xi)[0] : value;
+              }
+          double largest = std::abs(share.value);
+          for (const double slope : share.slope)
+            largest = std::max(largest, std::abs(slope));
+          if (largest > 1e-12)
+            shares.push_back(share);
+        }
+      start.push_back(shares.size());
+    }
 }
 
 /// Nodes that can carry an area: those of the faces, the masters of hanging ones, and what of both lies on other processes.
@@ -124,27 +139,31 @@ const VectorType &DeformedFaces<dim>::areas(const VectorType &displacement)
   for (unsigned int face = 0; face < sign.size(); ++face)
     {
       const unsigned int *nodes = &face_nodes[face * n];
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          for (unsigned int c = 0; c < dim; ++c)
+            position[a][c] = X[dim * nodes[a] + c] + u[dim * nodes[a] + c];
+          part[a] = Tensor<1, dim>();
+        }
       for (unsigned int q = 0; q < weight.size(); ++q)
         {
           Point<dim>                             x;
           std::array<Tensor<1, dim>, n_tangents> t;
-          for (unsigned int a = 0; a < n; ++a)
-            {
-              const double  N      = shape[q * n + a];
-              const double *slopes = &slope[(q * n + a) * n_tangents];
-              for (unsigned int c = 0; c < dim; ++c)
-                {
-                  const double value = X[dim * nodes[a] + c] + u[dim * nodes[a] + c];
-                  x[c] += N * value;
-                  for (unsigned int k = 0; k < n_tangents; ++k)
-                    t[k][c] += slopes[k] * value;
-                }
-            }
-          const Tensor<1, dim> dA = sign[face] * weight[q] * measure(discretization->symmetry, x) * area_vector<dim>(t);
-          for (unsigned int a = 0; a < n; ++a)
+          for (unsigned int s = start[q]; s < start[q + 1]; ++s)
             for (unsigned int c = 0; c < dim; ++c)
-              A[dim * nodes[a] + c] += shape[q * n + a] * dA[c];
+              {
+                const double value = position[shares[s].node][c];
+                x[c] += shares[s].value * value;
+                for (unsigned int k = 0; k < n_tangents; ++k)
+                  t[k][c] += shares[s].slope[k] * value;
+              }
+          const Tensor<1, dim> dA = sign[face] * weight[q] * measure(discretization->symmetry, x) * area_vector<dim>(t);
+          for (unsigned int s = start[q]; s < start[q + 1]; ++s)
+            part[shares[s].node] += shares[s].value * dA;
         }
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int c = 0; c < dim; ++c)
+          A[dim * nodes[a] + c] += part[a][c];
     }
   discretization->hanging.template condense<dim>(A);
   area.compress(VectorOperation::add);

@@ -2,6 +2,7 @@
 
 #include <arenite/mechanics/discretization.h>
 
+#include <array>
 #include <vector>
 
 namespace Arenite
@@ -30,16 +31,28 @@ public:
 private:
   static constexpr unsigned int n_tangents = dim == 1 ? 1 : dim - 1; ///< unused in one dimension
 
+  /// What a node of a face has to do with a point of the rule. Where nodes are points most pairs have nothing in common.
+  struct Share
+  {
+    unsigned int                   node; ///< of the face
+    double                         value;
+    std::array<double, n_tangents> slope;
+  };
+
+  void make_shares();
   void find_nodes();
 
   const Discretization<dim> *discretization = nullptr;
   unsigned int               n              = 0; ///< nodes per face
   std::vector<double>        weight;             ///< of each point
-  std::vector<double>        shape;              ///< N_a at point q: q n + a
-  std::vector<double>        slope;              ///< dN_a/dxi_k at point q: (q n + a) n_tangents + k
+  std::vector<unsigned int>  start;              ///< of each point in shares
+  std::vector<Share>         shares;             ///< the same for all faces
   std::vector<unsigned int>  face_nodes;         ///< n local nodes per face
   std::vector<double>        sign;               ///< per face
   std::vector<unsigned int>  owned_nodes, touched_nodes;
   VectorType                 area;
+
+  std::vector<dealii::Point<dim>>     position; ///< nodes of the present face
+  std::vector<dealii::Tensor<1, dim>> part;     ///< their areas
 };
 } // namespace Arenite
