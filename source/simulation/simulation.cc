@@ -120,6 +120,8 @@ void Simulation<dim>::set_initial_state()
             state.half_velocity.local_element(dim * node + c) = v[c];
           }
       }
+  else
+    scene.initial_velocity.apply(*dynamics, state);
   scene.constraints.project(state.half_velocity);
   zero_at_hanging_nodes(discretization, state.half_velocity);
   make_consistent(discretization, state.displacement); // the energy of the start needs ghosts and hanging nodes
@@ -148,6 +150,7 @@ void Simulation<dim>::describe() const
     }
   for (const auto &load : dynamics->loads)
     text << "Load       " << load->name << ": " << load->description() << '\n';
+  text << scene.initial_velocity.description();
   text << "Mass       " << initial_mass * scene.mesh.geometry->symmetry_factor() << " kg" << per_extent(scene.symmetry)
        << " of the full body; boundaries: " << join(scene.mesh.geometry->boundary_names()) << '\n';
   text << "Step       stable up to " << scene.time_step.limit() << " s (cell at " << scene.time_step.limiting_place()
