@@ -113,7 +113,7 @@ void Scene<dim>::finalize(Parameters &parameters)
   for (auto &load : loads)
     {
       load->finalize(parameters, *mesh.geometry);
-      if (kinematics == "finite strain")
+      if (kinematics.finite_strain())
         load->use_finite_strain();
     }
   constraints.finalize(parameters, *mesh.geometry);
