@@ -391,7 +391,7 @@ private:
     inverse_step     = Arenite::max<Number>(inverse_step, Number(largest_rate * Number(1. / largest_volume_change)));
     Number hourglass = Number(0.);
     if constexpr (Element::has_hourglass_control)
-      hourglass = advance_hourglass(batch, operators, u, H, step, dt_last, record);
+      hourglass = advance_hourglass(batch, operators, u, H, h, step, density[0], dt_last, record);
     (void)u;
     for (int l = 0; l < batches.active[batch]; ++l)
       {
@@ -432,24 +432,23 @@ private:
       motion[q].set_volume(J_old / volume, J / volume, finite);
   }
 
-  /// Forces on the patterns at the end of the step. Stiffness: k = coefficient rho_0 c^2 s, with s the part of the elastic deviatoric
+  /// Forces on the patterns at the end of the step. Stiffness: k = coefficient rho c^2 s, with s the part of the elastic deviatoric
   /// stress that the point carries, |s|/(2 G |e|), so that soil that flows is not held by its hourglass control; at least a hundredth.
   /// @return work of the step
   Number advance_hourglass(const unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
-                           const Number (&H)[n_points][dim][dim], const Increment &step, const double dt_last,
-                           BlockState &record) const
+                           const Number (&H)[n_points][dim][dim], const Number (&h)[n_points], const Increment &step,
+                           const Number &density, const double dt_last, BlockState &record) const
   {
     PointData   &points = record.points;
     Amplitudes   q, dq;
     const Number c = load<Number>(&points.wave_speed[batch * W]);
     operators.patterns(u, H, q);
     operators.patterns(step.u, step.H, dq);
-    const double coefficient = element.hourglass_coefficient * law->density();
-    const Number scale =
-      viscous_hourglass
-        ? Number(coefficient) * c * operators.pattern_viscosity() * Number(dt_last > 0. ? 1. / dt_last : 0.)
-        : Number(coefficient) * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, points);
-    Number work = Number(0.);
+    const Number coefficient = Number(element.hourglass_coefficient) * density;
+    const Number scale       = viscous_hourglass
+                                 ? coefficient * c * operators.pattern_viscosity() * Number(dt_last > 0. ? 1. / dt_last : 0.)
+                                 : coefficient * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, h, points);
+    Number       work        = Number(0.);
     for (int i = 0; i < dim; ++i)
       for (int a = 0; a < Element::n_patterns; ++a)
         {
@@ -463,7 +462,7 @@ private:
   }
 
   ARENITE_INLINE Number secant_ratio(const unsigned int batch, const Number (&H)[n_points][dim][dim],
-                                     const PointData   &points) const
+                                     const Number (&h)[n_points], const PointData &points) const
   {
     const double G = material().shear_modulus;
     if (G == 0.)
@@ -477,6 +476,8 @@ private:
             sum += H[0][k][i] * H[0][k][j];
           e[Motion::index(i, j)] = Number(0.5) * sum;
         }
+    for (int i = dim; i < dim + n_hoop; ++i)
+      e[i] = h[0] + Number(finite ? 0.5 : 0.) * h[0] * h[0];
     for (int k = 0; k < 6; ++k)
       stress[k] = load<Number>(&points.stress[(std::size_t(batch) * 6 + k) * W]);
     const auto   s        = deviator(stress);

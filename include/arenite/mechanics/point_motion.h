@@ -124,9 +124,11 @@ struct PointMotion
   /// The change of volume replaced, for a mean over a cell.
   ARENITE_INLINE void set_volume(const V &new_J_old, const V &new_J, const bool finite)
   {
-    J_old = new_J_old;
-    J     = new_J;
-    set_trace(finite ? log_volume_change() : V(J - J_old));
+    J_old          = new_J_old;
+    J              = new_J;
+    const V change = V(1. / 3.) * ((finite ? log_volume_change() : V(J - J_old)) - trace(strain)); // the deviator stays
+    for (int i = 0; i < 3; ++i)
+      strain[i] += change;
   }
 
   /// a <- Q a Q^T for a symmetric tensor in three dimensions at @p a, components [6][lane].
