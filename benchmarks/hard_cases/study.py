@@ -1,294 +1,239 @@
-"""Hard cases: what the program does with them, how far the step may be raised, and what it says beyond. See README.md."""
-import csv, math, re, subprocess, sys
+"""Hard cases: errors, how far the step may be raised, and what the program says beyond. See README.md."""
+import math, sys
 from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-import common
+import common, reference
 import numpy
-import reference
+from limits import Attempt, limits_of, series
 
 study = common.Study(__file__)
 ONE_POINT, FULL = "one-point hexahedron", "hexahedron"
-steps = []  # rows of the table of steps
+steps = []
 
 
-def series(run, name):
-    return numpy.array(run.column("receivers-points.csv", name))
-
-
-def numbers_of(run):
-    """Every number that a run left behind."""
-    for file in ("receivers-points.csv", "statistics.csv"):
-        for values in run.table(file).values():
-            yield from values
-
-
-class Attempt:
-    """A run that may fail: its exit code, and either its results or the message."""
-
-    def __init__(self, scene, settings):
-        self.code, self.run, self.message = 0, None, ""
-        try:
-            self.run = study.run(scene, {"Output/Statistics interval": 1, **settings}, repeat=1, timeout=300)
-            if not all(map(math.isfinite, numbers_of(self.run))):
-                self.message = "not a number, but exit code 0"
-        except subprocess.TimeoutExpired:
-            self.code, self.message = -1, "no end within 300 s"
-        except RuntimeError as problem:
-            self.code = int(re.search(r"exit code (-?\d+)", str(problem))[1])
-            self.message = next((line for line in str(problem).splitlines() if line.startswith("t = ")), str(problem).splitlines()[-1])
-
-
-def short(message):
-    """What a message says without time, place and numbers."""
-    for words in ("inverted", "not a number", "energy balance", "strain energy grew", "energy grew", "no end"):
-        if words in message:
-            return words
-    return message
-
-
-def largest_factor(scene, settings, error, entry, unit, factors):
-    """The largest factor in a row from the first on with an error at most twice that of the automatic step, or 1 % more; what is beyond."""
-    usual = error(Attempt(scene, settings).run)
-    allowed = max(2. * abs(usual), abs(usual) + .01)
-
-    def judge(factor):
-        tried = Attempt(scene, {**settings, entry: f"{factor * unit:.9g}"})
-        if tried.run is None or tried.message:
-            return False, f"{tried.code}: {short(tried.message)}"
-        found = abs(error(tried.run))
-        return found <= allowed, f"0: error {common.text(found)}, energy {common.text(tried.run['energy_error'])}"
-
-    good, bad, beyond = None, None, ""
-    for factor in factors:
-        fine, words = judge(factor)
-        if fine:
-            good = factor
-        else:
-            bad, beyond = factor, words
-            break
-    while good and bad and bad / good > 1.03:
-        middle = math.sqrt(good * bad)
-        fine, words = judge(middle)
-        if fine:
-            good = middle
-        else:
-            bad, beyond = middle, words
-    alarm = ""
-    if bad and beyond.startswith("0:"):  # wrong without a word: from where on does the program say so?
-        for factor in [bad * 1.05 ** k for k in range(1, 30)]:
-            if entry.endswith("Courant number") and factor * unit > 2:
-                break
-            fine, words = judge(factor)
-            if not words.startswith("0:"):
-                alarm = f"{common.text(factor)}: {words}"
-                break
-    return good, beyond, alarm
-
-
-def add(case, scene, settings, error, known, steps_too=True):
-    """One row: the automatic step, then the largest Courant number and the largest fixed step."""
-    tried = Attempt(scene, settings)
-    if tried.run is None:
-        steps.append({"case": case, "exit": tried.code, "said": short(tried.message)})
-        print("  ", case, tried.message, flush=True)
+def case(name, scene, settings, error, known, search=True, **columns):
+    """One row of the study: the automatic step, and unless quick how far the step may be raised. Returns the run, None if it failed."""
+    tried = Attempt(study, scene, {**settings, "Output/Statistics interval": 1})
+    if not tried.good:
+        steps.append({"case": name, "exit": tried.code, "beyond": tried.said})
+        print(f"  {name}: {tried.code}, {tried.said}", flush=True)
         return None
     run = tried.run
-    found = error(run)
-    study.add(case, run, found, known=known, cells=run["cells"], steps=run["steps"], energy_error=run["energy_error"],
-              exit=0, problem=tried.message)
-    if steps_too and not study.quick:
-        courant = largest_factor(scene, settings, error, "Time stepping/Courant number", 1.,
-                                 [.9, 1., 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2.])
-        dt = numpy.array(run.column("statistics.csv", "dt [s]"))
-        smallest = dt[len(dt) // 20:-1].min() / .9  # after the start with short steps
-        fixed = largest_factor(scene, settings, error, "Time stepping/Fixed step", smallest,
-                               [.5 * 1.15 ** k for k in range(25)])
-        row = {"case": case, "Courant number": courant[0], "beyond": courant[1], "alarm from": courant[2],
-               "smallest limit [s]": float(smallest), "fixed step over it": fixed[0], "beyond it": fixed[1], "alarm from ": fixed[2]}
-        steps.append(row)
-        print("  ", row, flush=True)
+    study.add(name, run, error(run), known=known, cells=run["cells"], steps=run["steps"], energy_error=run["energy_error"], **columns)
+    if search and not study.quick:
+        steps.append({"case": name, "exit": 0, **limits_of(study, scene, settings, error, run)})
+        print(f"    {steps[-1]}", flush=True)
     return run
 
 
-# --- 1 saturated beside dry ----------------------------------------------------------------------------------------------
-def interface_case(first, V, strength):
-    p1, p2, u = reference.match(first, V)
-    order = ("dry", "saturated") if first == "dry" else ("saturated", "dry")
-    settings = {f"Materials/{name}/Material id": i for i, name in enumerate(order)}
-    settings.update({"Constraints/x min/Amplitude": V, "End time": 2.55e-3 if first == "dry" else 1.1e-3})
+def table(rows):
+    text = common.markdown_table(rows)
+    print("\n" + text, flush=True)
+    return text
+
+
+# --- where dry and saturated sand meet ----------------------------------------------------------------------------------
+def interface():
+    for first, second, V, end in (("dry", "saturated", 100., 2.6e-3), ("saturated", "dry", 50., 1.2e-3)):
+        p1, p2, u = reference.match(first, V)
+
+        def error(run):
+            v = [series(run, f"p{i}.velocity_x [m/s]")[-1] / u for i in (1, 2)]
+            S = [-series(run, f"p{i}.stress_xx [Pa]")[-1] / p2 for i in (1, 2)]
+            return max(abs(x - 1.) for x in v + S)
+
+        case(f"{first} sand to {second} sand", "interface.prm",
+             {f"Materials/{first}/Material id": 0, f"Materials/{second}/Material id": 1, "Constraints/x min/Amplitude": V, "End time": end},
+             error, "impedance match: velocity and pressure on both sides")
+
+
+# --- a plate of one cell in soil ----------------------------------------------------------------------------------------
+def plate():
+    impedance, mass, arrival = math.sqrt(1800. * 1.8e8), 7800. * .01, .5 / math.sqrt(1.8e8 / 1800.)
 
     def error(run):
-        """Largest of the relative errors of pressure and velocity on both sides of the interface."""
-        v = [series(run, f"p{i}.velocity_x [m/s]")[-1] for i in (1, 2)]
-        S = [-series(run, f"p{i}.stress_xx [Pa]")[-1] for i in (1, 2)]
-        return max(max(abs(x / u - 1) for x in v), max(abs(x / p2 - 1) for x in S))
-
-    return add(f"interface, {order[0]} to {order[1]}", "interface.prm", settings, error, "impedance match")
-
-
-for first, V in (("dry", 100.), ("saturated", 50.)):
-    interface_case(first, V, "none")
-
-
-# --- 2 a plate of one cell ----------------------------------------------------------------------------------------------
-def plate_error(pressure):
-    def error(run):
-        Z, m, arrival = 1800. * math.sqrt(1.8e8 / 1800.), 7800. * .01, .5 / math.sqrt(1.8e8 / 1800.)
         t, v = series(run, "t [s]"), series(run, "p2.velocity_x [m/s]")
-        exact = numpy.array([reference.plate(s - arrival, pressure, Z, m) for s in t])
-        weight = numpy.gradient(t) * (t > arrival)
-        return float(math.sqrt(((v - exact) ** 2 * weight).sum() / (exact ** 2 * weight).sum()))
-    return error
+        exact = numpy.array([reference.plate(s - arrival, 1e4, impedance, mass) for s in t])
+        weight = numpy.gradient(t)
+        return math.sqrt(((v - exact) ** 2 * weight).sum() / (exact ** 2 * weight).sum())
+
+    case("plate in soil", "stiff_layer.prm", {}, error, "mass between two half-spaces, E_t of v")
+
+    def yielding(run):  # at the end of the pulse's passage the plate moves with the soil in front of it
+        return run["energy_error"]
+    case("plate in soil that yields", "stiff_layer.prm", {"Loads/push/Amplitude": 5e6}, yielding, "energy")
 
 
-add("stiff plate in soil", "stiff_layer.prm", {}, plate_error(1e4), "mass between two soils")
+# --- cells of bad shape ---------------------------------------------------------------------------------------------------
+CLAY_PRESSURE = 1800. * (1500. + 1.8 * 200.) * 200.
 
 
-# --- 3 bad cells --------------------------------------------------------------------------------------------------------
-P_CELLS = 1800. * (1500. + 1.8 * 200.) * 200.
-GRID = "; ".join(f"{x:.3g}, {y:.3g}" for x in (.15, .233, .3, .41, .5) for y in (.03, .1, .17))
+def bad_cells():
+    shapes = {"bricks": ("1, 0.2", "50, 10", 0), "distorted": ("1, 0.2", "50, 10", .3), "20 times as wide as long": ("1, 0.4", "100, 2", 0),
+              "20 times as long as wide": ("1, 0.01", "50, 10", 0), "20 times as wide, distorted": ("1, 0.8", "100, 4", .3),
+              "20 times as long, distorted": ("1, 0.01", "50, 10", .3)}
+    rows = []
 
+    def points(width, dimension, length=1.):
+        across = [.13, .41, .77]
+        places = [(x * length, a * width, b * width) for x in (.15, .233, .3, .41, .5) for a, b in zip(across, across[1:] + across[:1])]
+        return len(places), "; ".join(", ".join(f"{c:.4g}" for c in p[:dimension]) for p in places)
 
-def cells_error(run):
-    n = sum(1 for name in run.table("receivers-points.csv") if name.endswith("velocity_x [m/s]"))
-    S = [-series(run, f"p{i}.stress_xx [Pa]")[-1] for i in range(1, n + 1)]
-    return max(abs(x / P_CELLS - 1) for x in S)
-
-
-def transverse(run):
-    names = [n for n in run.table("receivers-points.csv") if "velocity_y" in n or "velocity_z" in n]
-    return max(max(abs(v) for v in run.column("receivers-points.csv", n)) for n in names) / 200.
-
-
-side = []
-MESHES = {"bricks": {"Mesh/Cells": "50, 10", "Mesh/Distortion": 0}, "distorted": {"Mesh/Cells": "50, 10", "Mesh/Distortion": .3},
-          "20 times as wide as long": {"Mesh/Cells": "100, 1", "Mesh/Distortion": 0},
-          "20 times as long as wide": {"Mesh/Cells": "50, 200", "Mesh/Distortion": 0, "Mesh/Upper corner": "1, 0.2"},
-          "20:1 and distorted": {"Mesh/Cells": "100, 3", "Mesh/Upper corner": "1, 0.6", "Mesh/Distortion": .2}}
-BRICK = {"Dimension": 3, "Symmetry": "none", "Mesh/Upper corner": "0.4, 0.08, 0.08", "Mesh/Cells": "20, 4, 4", "End time": 1.6e-4,
-         "Constraints/Symmetry planes": "y min, y max, z min, z max",
-         "Receivers/points/Points": "0.061, 0.03, 0.05; 0.093, 0.01, 0.02; 0.12, 0.05, 0.06; 0.16, 0.04, 0.033; 0.2, 0.06, 0.02"}
-for element in (ONE_POINT, FULL):
-    for mesh, settings in MESHES.items():
-        where = GRID if "0.6" not in settings.get("Mesh/Upper corner", "") else "; ".join(f"{x:.3g}, {y:.3g}" for x in (.15, .233, .3, .41, .5) for y in (.1, .3, .5))
-        run = add(f"{mesh}, 2-D, {element}", "cells.prm", {**settings, "Element/Type": element, "Receivers/points/Points": where}, cells_error,
-                  "Hugoniot")
+    def measure(name, settings, element, dimension, n):
+        def error(run):
+            return max(abs(-series(run, f"p{i}.stress_xx [Pa]")[-1] / CLAY_PRESSURE - 1.) for i in range(1, n + 1))
+        run = case(f"{name}, {dimension}-D, {element}", "cells.prm", {**settings, "Element/Type": element}, error, "Hugoniot: largest error of the plateau",
+                   search=name != "bricks")
         if run:
-            side.append({"mesh": mesh, "dimension": 2, "element": element, "largest transverse velocity/piston": transverse(run),
-                         "largest error of the plateau": cells_error(run), "hourglass energy/total": run["hourglass_energy"] / run["energy"] if "energy" in run.values else ""})
-    for distortion in (0, .3):
-        run = add(f"{'distorted' if distortion else 'bricks'}, 3-D, {element}", "cells.prm", {**BRICK, "Element/Type": element, "Mesh/Distortion": distortion},
-                  cells_error, "Hugoniot")
-        if run:
-            side.append({"mesh": "distorted" if distortion else "bricks", "dimension": 3, "element": element,
-                         "largest transverse velocity/piston": transverse(run), "largest error of the plateau": cells_error(run)})
+            S = numpy.array([-series(run, f"p{i}.stress_xx [Pa]")[-1] for i in range(1, n + 1)]) / CLAY_PRESSURE
+            v = max(abs(series(run, f"p{i}.velocity_{c} [m/s]")[-1]) for i in range(1, n + 1) for c in "yz"[:dimension - 1]) / 200.
+            rows.append({"cells": name, "dimension": dimension, "element": element, "mean of the plateau": float(S.mean() - 1.),
+                         "largest error of the plateau": float(abs(S - 1.).max()), "transverse over piston velocity": float(v),
+                         "hourglass energy": run["hourglass_energy"] / (run["dissipation"] + run["artificial_dissipation"])})
+
+    for element in (ONE_POINT, FULL):
+        for name, (corner, cells, distortion) in shapes.items():
+            n, places = points(float(corner.split(",")[1]), 2)
+            settings = {"Mesh/Upper corner": corner, "Mesh/Cells": cells, "Mesh/Distortion": distortion, "Receivers/points/Points": places}
+            measure(name, settings, element, 2, n)
+        for name, distortion in (("bricks", 0), ("distorted", .3)):
+            n, places = points(.08, 3, .4)
+            measure(name, {"Dimension": 3, "Symmetry": "none", "Mesh/Upper corner": "0.4, 0.08, 0.08", "Mesh/Cells": "20, 4, 4", "End time": 1.6e-4,
+                           "Mesh/Distortion": distortion, "Constraints/Symmetry planes": "y min, y max, z min, z max",
+                           "Receivers/points/Points": places}, element, 3, n)
+    return table(rows)
 
 
-# --- 5 a small cap under 10 GPa ---------------------------------------------------------------------------------------------
-def cap_error(run):
-    """Jump relations of the shock between two receivers: speed from the passage of 1 GPa."""
-    t = series(run, "t [s]")
-    S = [-series(run, f"p{i}.stress_xx [Pa]") for i in (1, 2, 3)]
-    passed = [float(numpy.interp(5e9, s[:1 + int(s.argmax())], t[:1 + int(s.argmax())])) for s in S[:3]]
-    U = .1 / (passed[2] - passed[1])
-    v, rho = series(run, "p1.velocity_x [m/s]")[-1], series(run, "p1.density [kg/m^3]")[-1]
-    return max(abs(1800. * U * v / S[0][-1] - 1), abs(1800. * U / (U - v) / rho - 1), abs(S[0][-1] / 1e10 - 1))
-
-
-UNDRAINED = {"Law": "undrained cap", "Density": "", }
-add("cap of 10 kPa under 10 GPa", "small_cap.prm", {}, cap_error, "jump relations")
-
-
-# --- 6 spall --------------------------------------------------------------------------------------------------------------
-C, P, LENGTH = math.sqrt(1.8e8 / 1800.), 1e6, 1.
-MIDDLES = "; ".join(f"{(i + .5) / 200:.6g}" for i in range(200))
-
-
-def momentum_error(impulse):
+# --- a cap of 10 kPa under 10 GPa -----------------------------------------------------------------------------------------
+def small_cap():
     def error(run):
-        v = [series(run, f"p{i}.velocity_x [m/s]")[-1] for i in range(1, 201)]
-        return 1800. * LENGTH * float(numpy.mean(v)) / impulse - 1.
-    return error
+        """Of the jump relations, with the speed of the front between 0.2 and 0.3 m, and of the pressure behind it."""
+        t, S = series(run, "t [s]"), [-series(run, f"p{i}.stress_xx [Pa]") for i in (1, 2, 3)]
+        passed = [t[numpy.argmax(s > 5e9)] for s in S]
+        U, v, rho = .1 / (passed[2] - passed[1]), series(run, "p1.velocity_x [m/s]")[-1], series(run, "p1.density [kg/m^3]")[-1]
+        rho0 = series(run, "p4.density [kg/m^3]")[0]
+        return max(abs(rho0 * U * v / S[0][-1] - 1), abs(rho0 * U / (U - v) / rho - 1), abs(S[0][-1] / 1e10 - 1))
+
+    case("cap of 10 kPa under 10 GPa, moist", "small_cap.prm", {}, error, "jump relations and load")
+    case("cap of 10 kPa under 10 GPa, Perzyna", "small_cap.prm", {"Materials/sand/Viscosity": "Perzyna", "Materials/sand/Fluidity eta": 1e4, "Materials/sand/Overstress scale f0": 1e5},
+         error, "jump relations and load")
+    case("cap of 10 kPa under 10 GPa, wet", "small_cap_wet.prm", {}, error, "jump relations and load")
 
 
-PULSES = {"pulse of 0.3 layers": ("(t < 1e-3) ? 1 : 0", 1e3, 6e-3), "pulse of 1.6 layers": ("(t < 5e-3) ? 1 : 0", 5e3, 12e-3),
-          "spall, hit again": ("(t < 1e-3) ? 1 : ((t > 4e-3 && t < 5e-3) ? 3 : 0)", 4e3, 16e-3)}
-SOILS = {"tears": {}, "cap": {}}
-for name, (expression, impulse, end) in PULSES.items():
-    add(name, "spall.prm", {"Loads/push/Expression": expression, "End time": end, "Receivers/points/Points": MIDDLES},
-        momentum_error(impulse), "momentum")
+# --- spall ------------------------------------------------------------------------------------------------------------------
+def spall():
+    n = 200
+    middles = "; ".join(f"{(i + .5) / n:.6g}" for i in range(n)) + "; 1"
+    rows = []
+    for name, expression, impulse, end in (("pulse shorter than the layer", "(t < 1e-3) ? 1 : 0", 1e3, 6e-3),
+                                           ("pulse longer than the layer", "(t < 5e-3) ? 1 : 0", 5e3, 12e-3),
+                                           ("spall that is hit again", "(t < 1e-3) ? 1 : ((t > 4e-3 && t < 5e-3) ? 3 : 0)", 4e3, 14e-3)):
+        def error(run):
+            return 1800. * float(numpy.mean([series(run, f"p{i}.velocity_x [m/s]")[-1] for i in range(1, n + 1)])) / impulse - 1.
 
-# --- 7 fluidity -------------------------------------------------------------------------------------------------------------
-def compare(run, other):
-    a, b = series(run, "p2.stress_xx [Pa]"), series(other, "p2.stress_xx [Pa]")
-    on = numpy.interp(series(run, "t [s]"), series(other, "t [s]"), b)
-    return float(numpy.linalg.norm(a - on) / numpy.linalg.norm(on))
-
-
-fluidity = []
-elastic = study.run("fluidity.prm", {"Materials/sand/Fluidity eta": 0}, repeat=1)
-plastic = study.run("fluidity.prm", {"Materials/sand/Viscosity": "none"}, repeat=1)
-for power in study.choose(range(-12, 13, 2), quick=(-12, 0, 12)):
-    eta = 10. ** power / 2.5e-5
-    tried = Attempt("fluidity.prm", {"Materials/sand/Fluidity eta": eta})
-    row = {"eta dt": f"1e{power}", "exit": tried.code}
-    if tried.run:
-        row.update({"to elastic": compare(tried.run, elastic), "to rate independent": compare(tried.run, plastic), "steps": tried.run["steps"],
-                    "energy error": tried.run["energy_error"], "core-seconds": tried.run.core_seconds})
-    fluidity.append({**row, "problem": tried.message})
-    print("  ", fluidity[-1], flush=True)
-for power in (-12, 0, 12):
-    near = elastic if power < 0 else plastic
-    eta = 10. ** power / 2.5e-5
-    add(f"fluidity, eta dt = 1e{power}", "fluidity.prm", {"Materials/sand/Fluidity eta": eta},
-        lambda run, near=near: compare(run, near), "elastic" if power < 0 else "rate independent")
-
-# --- 8 ringing kept by hysteresis ----------------------------------------------------------------------------------------------
-locking = []
-WALL = "p1.displacement_r [m]"
+        for soil, scene in (("tears", "spall.prm"), ("compacts and tears", "spall_cap.prm")):
+            run = case(f"{name}, {soil}", scene, {"Loads/push/Expression": expression, "End time": end, "Receivers/points/Points": middles,
+                                                  "Receivers/points/Quantities": "velocity, stress, density"}, error, "momentum of the load")
+            if run:
+                surface = series(run, f"p{n + 1}.velocity_x [m/s]")
+                S = numpy.array([-series(run, f"p{i}.stress_xx [Pa]") for i in range(1, n + 1)])
+                rho = numpy.array([series(run, f"p{i}.density [kg/m^3]")[-1] for i in range(1, n + 1)])
+                open_cells = numpy.nonzero(rho < .999 * 1800)[0]
+                rows.append({"pulse": name, "soil": soil, "surface, of 2 P/(rho c)": float(surface.max() / (2e6 / math.sqrt(1800 * 1.8e8))),
+                             "largest tension [kPa]": float(-S.min() / 1e3), "open cells at the end": len(open_cells),
+                             "first open from the surface [m]": 1. - (open_cells[-1] + .5) / n if len(open_cells) else "",
+                             "smallest density": float(rho.min())})
+    return table(rows)
 
 
-def wall(settings):
-    tried = Attempt("locking.prm", settings)
-    return tried, (series(tried.run, WALL)[-1] if tried.run else math.nan)
+# --- from elastic to rate independent -----------------------------------------------------------------------------------
+def fluidity():
+    def difference(run, other):
+        t, a = series(run, "t [s]"), series(run, "p2.stress_xx [Pa]")
+        b = numpy.interp(t, series(other, "t [s]"), series(other, "p2.stress_xx [Pa]"))
+        return float(numpy.linalg.norm(a - b) / numpy.linalg.norm(b))
+
+    entry, dt = "Materials/sand/Fluidity eta", 2.5e-5
+    elastic, plastic = (study.run("fluidity.prm", s, repeat=1) for s in ({entry: 0}, {"Materials/sand/Viscosity": "none"}))
+    rows = []
+    for power in study.choose(range(-12, 13, 2), quick=(-12, 0, 12)):
+        tried = Attempt(study, "fluidity.prm", {entry: 10. ** power / dt})
+        row = {"eta dt": f"1e{power}", "exit": tried.code, "said": tried.said}
+        if tried.run:
+            row.update({"to elastic": difference(tried.run, elastic), "to rate independent": difference(tried.run, plastic), "steps": tried.run["steps"],
+                        "energy error": tried.run["energy_error"], "core-seconds": tried.run.core_seconds})
+        rows.append(row)
+    for power in (-12, 0, 12):
+        near, name = (elastic, "elastic") if power < 0 else (plastic, "rate independent")
+        case(f"fluidity, eta dt = 1e{power}", "fluidity.prm", {entry: 10. ** power / dt}, lambda run: difference(run, near), f"run that is {name}")
+    return table(rows)
 
 
-best = wall({"Mesh/Radial layers": study.choose((4800,), quick=(600,))[0], "Element/Linear bulk viscosity": .6, "Element/Quadratic bulk viscosity": 2})
-finer = [wall({"Mesh/Radial layers": n, "Element/Linear bulk viscosity": .6, "Element/Quadratic bulk viscosity": 2})[1] for n in study.choose((1200, 2400), quick=())]
-limit = 2 * best[1] - finer[-1] if finer else best[1]  # first order
-for b1, b2, expansion, courant in ((.06, 1.2, "false", .9), (.06, 1.2, "false", .3), (.06, 1.2, "true", .9), (.06, 2, "false", .9), (.2, 1.2, "false", .9),
-                                   (.6, 1.2, "false", .9), (.6, 1.2, "true", .9), (.6, 2, "false", .9), (.6, 2, "true", .9), (1, 2, "false", .9)):
-    row = {"b1": b1, "b2": b2, "in expansion": expansion, "Courant": courant}
-    for layers in study.choose((300, 600, 1200, 2400), quick=(150,)):
-        tried, u = wall({"Mesh/Radial layers": layers, "Element/Linear bulk viscosity": b1, "Element/Quadratic bulk viscosity": b2,
-                         "Element/Bulk viscosity in expansion": expansion, "Time stepping/Courant number": courant})
-        row[f"u(a) at {layers} [mm]"] = f"{1e3 * u:.3f}"
-        row["energy error"] = tried.run["energy_error"] if tried.run else tried.message
-    locking.append(row)
-    print("  ", row, flush=True)
-print(f"   u(a) extrapolated {limit:.6g} m, finest {best[1]:.6g}, {finer}", flush=True)
-add("locking cavity, b1 0.6, b2 2", "locking.prm", {"Element/Linear bulk viscosity": .6, "Element/Quadratic bulk viscosity": 2},
-    lambda run: series(run, WALL)[-1] / limit - 1., "finer meshes")
-add("locking cavity, b1 0.06, b2 1.2", "locking.prm", {}, lambda run: series(run, WALL)[-1] / limit - 1., "finer meshes")
+# --- ringing that hysteresis keeps ----------------------------------------------------------------------------------------
+def locking():
+    def settings(layers, b1, b2, expansion="false", courant=.9):
+        return {"Mesh/Radial layers": layers, "Element/Linear bulk viscosity": b1, "Element/Quadratic bulk viscosity": b2,
+                "Element/Bulk viscosity in expansion": expansion, "Time stepping/Courant number": courant}
 
-# --- 9 a bar that rings ---------------------------------------------------------------------------------------------------------
-drift = []
-LAWS = {"elastic": {}, "linear elastic (hypoelastic)": {"Law": "linear elastic"},
-        "elastic-plastic": {"Strength": "mises", "Yield stress": 5e5}}
-for name, settings in LAWS.items():
-    for end in study.choose((1.5, 15), quick=(.15,)):
-        tried = Attempt("ringing.prm", {**{f"Materials/bar/{k}": v for k, v in settings.items()}, "End time": end, "Output/Statistics interval": 1000})
-        if not tried.run:
-            drift.append({"bar": name, "problem": tried.message})
-            continue
-        table = tried.run.table("statistics.csv")
-        column = lambda word: numpy.array(next(v for k, v in table.items() if k.startswith(word)))
-        total = column("kinetic") + column("strain") + column("dissipated by the law") + column("hypoelastic")
-        half = len(total) // 2
-        drift.append({"bar": name, "steps": tried.run["steps"], "energy error": tried.run["energy_error"],
-                      "kinetic + strain at the end/start": float((column("kinetic") + column("strain"))[-1] / (column("kinetic") + column("strain"))[0]),
-                      "drift over the second half": float((total[-1] - total[half]) / total[0]), "core-seconds": tried.run.core_seconds})
-        print("  ", drift[-1], flush=True)
+    def wall(run):
+        return series(run, "p1.displacement_r [m]")[-1]
 
-tables = [common.markdown_table(t) for t in (steps, side, fluidity, locking, drift)]
-print("\n" + "\n\n".join(tables), flush=True)
+    def moved(*choice):
+        tried = Attempt(study, "locking.prm", settings(*choice))
+        return wall(tried.run) if tried.run else math.nan
+
+    ladder = study.choose((300, 600, 1200, 2400, 4800), quick=(150, 300))
+    damped = [moved(layers, .6, 2) for layers in ladder]
+    limit = 2. * damped[-1] - damped[-2]
+    rows = [{"b1": .6, "b2": 2, "in expansion": "false", "Courant number": .9, **{f"{n} cells": u / limit - 1. for n, u in zip(ladder, damped)}}]
+    for choice in study.choose(((.06, 1.2), (.06, 1.2, "true"), (.06, 1.2, "false", .3), (.06, 2), (.2, 1.2), (.2, 1.2, "true"), (.6, 1.2), (.6, 1.2, "true"), (.6, 2, "true"),
+                                (.6, 2, "false", .3), (1, 2)), quick=((.06, 1.2),)):
+        b1, b2, expansion, courant = (*choice, "false", .9)[:4] if len(choice) != 3 else (*choice, .9)
+        rows.append({"b1": b1, "b2": b2, "in expansion": expansion, "Courant number": courant,
+                     **{f"{n} cells": moved(n, *choice) / limit - 1. for n in ladder[:-1]}})
+        print(f"    {rows[-1]}", flush=True)
+    for b1, b2 in ((.06, 1.2), (.6, 2)):
+        case(f"locking soil, b1 = {b1}, b2 = {b2}", "locking.prm", settings(600, b1, b2), lambda run: wall(run) / limit - 1., "wall on finer meshes")
+    return f"Wall at {1e3 * limit:.4g} mm (extrapolated); relative to it:\n\n" + table(rows)
+
+
+# --- a bar that rings -----------------------------------------------------------------------------------------------------
+def ringing():
+    rows = []
+    for name, scene, law in (("elastic", "ringing.prm", {}), ("hypoelastic", "ringing_hypoelastic.prm", {}),
+                             ("elastic-plastic", "ringing.prm", {"Materials/bar/Strength": "mises", "Materials/bar/Yield stress": 5e5}),
+                             ("cap", "ringing_cap.prm", {})):
+        for end in study.choose((1.5, 15), quick=(.15,)):
+            tried = Attempt(study, scene, {**law, "End time": end, "Output/Statistics interval": 50})
+            row = {"bar": name, "exit": tried.code, "said": tried.said}
+            if tried.run:
+                columns = tried.run.table("statistics.csv")
+                kinetic, strain, plastic, volume = (numpy.array(next(v for k, v in columns.items() if k.startswith(word)))
+                                                    for word in ("kinetic", "strain", "dissipated by the law", "hypoelastic"))
+                total, n = kinetic + strain + plastic + volume, len(kinetic) // 10
+                row.update({"steps": tried.run["steps"], "energy error": tried.run["energy_error"],
+                            "kinetic and stored, last tenth": float((kinetic + strain)[-n:].mean() / total[0]),
+                            "drift of all": float(total[-n:].mean() / total[:n].mean() - 1.), "core-seconds": tried.run.core_seconds})
+            rows.append(row)
+            print(f"    {row}", flush=True)
+    return table(rows)
+
+
+if __name__ == "__main__":
+    interface()
+    plate()
+    cells, _ = bad_cells(), small_cap()
+    spalls, viscous, locked, rung = spall(), fluidity(), locking(), ringing()
+    study.finish(f"""Columns of the table of steps: see README.md.
+
+{table(steps)}
+
+{cells}
+
+{spalls}
+
+{viscous}
+
+{locked}
+
+{rung}""")
