@@ -11,10 +11,15 @@ import numpy
 NAME = "profile"
 
 
-def along(cells, upper, lower=0., interval=None, parts=1, quantities="displacement, velocity, stress, density"):
+def along(cells, upper, lower=0., interval=None, parts=1, quantities="displacement, velocity, stress, density", direction="1, 0, 0"):
     """Settings of receivers in the middle of `parts` parts of each of the equal cells, at the name 'profile'."""
     places = lower + (numpy.arange(cells * parts) + .5) * (upper - lower) / (cells * parts)
-    settings = {f"Receivers/{NAME}/Directions": "1, 0, 0", f"Receivers/{NAME}/Radii": ", ".join(f"{x:.9g}" for x in places),
+    return at(places, interval, quantities, direction)
+
+
+def at(places, interval=None, quantities="displacement, velocity, stress, density", direction="1, 0, 0"):
+    """The same at given distances from the origin."""
+    settings = {f"Receivers/{NAME}/Directions": direction, f"Receivers/{NAME}/Radii": ", ".join(f"{x:.9g}" for x in places),
                 f"Receivers/{NAME}/Quantities": quantities}
     if interval:
         settings[f"Receivers/{NAME}/Interval"] = interval
@@ -22,21 +27,21 @@ def along(cells, upper, lower=0., interval=None, parts=1, quantities="displaceme
 
 
 class Profile:
-    """Columns over the points. S axial and L lateral stress and p in compression [Pa]; X places in the reference, x at present [m]."""
+    """Columns over the points. S axial stress and p in compression [Pa]; X distances in the reference, x at present [m]. Volumes grow with
+    x^power: 0 along a line, 1 from an axis, 2 from a point."""
 
-    def __init__(self, time, X, u, v, stresses, rho, hoops):
-        self.time, self.X, self.u, self.v, self.rho = time, X, u, v, rho
+    def __init__(self, time, X, u, v, S, p, rho, power):
+        self.time, self.X, self.u, self.v, self.S, self.p, self.rho, self.power = time, X, u, v, S, p, rho, power
         self.x = X + u
-        self.S, self.L = -stresses[0], -stresses[1]
-        self.p = -sum(stresses) / 3
-        self.hoops = hoops
+        self.q = 1.5 * (S - p)  # axial less lateral stress, where the lateral ones are equal
 
     def volumes(self):
-        """Present volumes of the parts, but for a constant factor: between the middles of neighbours, walls as far as they are known."""
-        middles = (self.x[1:] + self.x[:-1]) / 2
-        ends = numpy.concatenate([[max(0., 1.5 * self.x[0] - .5 * self.x[1]) if self.hoops else 1.5 * self.x[0] - .5 * self.x[1]],
-                                  middles, [1.5 * self.x[-1] - .5 * self.x[-2]]])
-        return numpy.diff(ends ** (self.hoops + 1))
+        """Present volumes of the parts, but for a constant factor, between the middles of neighbours."""
+        ends = numpy.concatenate([[1.5 * self.x[0] - .5 * self.x[1]], (self.x[1:] + self.x[:-1]) / 2,
+                                  [1.5 * self.x[-1] - .5 * self.x[-2]]])
+        if self.power:
+            ends = numpy.maximum(ends, 0.)
+        return numpy.diff(ends ** (self.power + 1))
 
     def l1(self, computed, exact, where=None):
         """sum |computed - exact| dV / sum |exact| dV"""
@@ -58,22 +63,35 @@ class Profile:
         return float(places[i] + (values[i] - level) / (values[i] - values[i + 1]) * (places[i + 1] - places[i]))
 
 
-def read(run, row=-1, rest=None, hoops=0):
-    """The profile of one row; hoops: 0 plane, 1 axisymmetric along r, 2 spherical. rest: density of points without a column of it."""
+def read(run, row=-1, rest=None, power=0):
+    """The profile of one row. rest: density of points without a column of it."""
     table = run.table(f"receivers-{NAME}.csv")
-    places = run.directory / f"receivers-{NAME}-points.csv"
-    with open(places) as stream:
+    with open(run.directory / f"receivers-{NAME}-points.csv") as stream:
         points = [line.split(",") for line in stream.read().splitlines()[1:]]
-    names, X = [p[0].strip() for p in points], numpy.array([float(p[1]) for p in points])
-    letters = {0: "xyz", 1: "rtz", 2: "rtp"}[hoops]
+    names, places = [p[0].strip() for p in points], numpy.array([[float(x) for x in p[1:4]] for p in points])
+    X = numpy.sqrt((places ** 2).sum(axis=1))
+    space = [c for c in "xyzr" if f"{names[0]}.velocity_{c} [m/s]" in table]
+    if space[-1] == "r":  # a radius, or a meridian plane with z second
+        space = ["r"] + (["z"] if "z" in space else [])
+    n = places[-1] / X[-1]
+    n = [1.] if len(space) == 1 else ([n[0], n[2]] if space == ["r", "z"] else list(n[:len(space)]))
 
     def column(quantity):
         return numpy.array([table[f"{name}.{quantity}"][row] for name in names])
 
-    stresses = [column(f"stress_{c}{c} [Pa]") for c in letters]
+    def along_line(quantity, unit):
+        return sum(n_i * column(f"{quantity}_{c} [{unit}]") for n_i, c in zip(n, space))
+
+    def stress(a, b):
+        for pair in (a + b, b + a):
+            if f"{names[0]}.stress_{pair} [Pa]" in table:
+                return column(f"stress_{pair} [Pa]")
+        return numpy.zeros(len(names))  # vanishes in this form
+
+    S = -sum(n_i * n_j * stress(a, b) for n_i, a in zip(n, space) for n_j, b in zip(n, space))
+    p = -sum(stress(c, c) for c in "xyzrtp") / 3
     rho = column("density [kg/m^3]") if f"{names[0]}.density [kg/m^3]" in table else rest
-    return Profile(table["t [s]"][row], X, column(f"displacement_{letters[0]} [m]"), column(f"velocity_{letters[0]} [m/s]"),
-                   stresses, rho, hoops)
+    return Profile(table["t [s]"][row], X, along_line("displacement", "m"), along_line("velocity", "m/s"), S, p, rho, power)
 
 
 def order(cells, errors):
