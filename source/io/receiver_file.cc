@@ -53,6 +53,8 @@ public:
           text += "," + name + ".velocity_" + direction_letters(symmetry)[d] + " [m/s]";
         for (unsigned int k = 0; k < n_stress_components(dim) && quantities.stress; ++k)
           text += "," + name + ".stress_" + stress_component(symmetry, k) + " [Pa]";
+        if (quantities.density)
+          text += "," + name + ".density [kg/m^3]";
       }
     text += "\n";
     flush();
@@ -76,6 +78,8 @@ public:
           put(row.velocity[point][d]);
         for (unsigned int k = 0; k < n_stress_components(dim) && quantities.stress; ++k)
           put(row.stress[point].access_raw_entry(k));
+        if (quantities.density)
+          put(row.density[point]);
       }
     text += "\n";
   }

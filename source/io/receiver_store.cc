@@ -271,6 +271,8 @@ public:
       plan("velocity", "m/s", dim, axes);
     if (quantities.stress)
       plan("stress", "Pa", n_stress, stresses);
+    if (quantities.density)
+      plan("density", "kg/m^3", 1, "");
   }
 
   void add(const ReceiverRow<dim> &row) override
@@ -284,6 +286,8 @@ public:
           velocity.push_back(row.velocity[point][d]);
         for (unsigned int k = 0; k < n_stress && quantities.stress; ++k)
           stress.push_back(row.stress[point].access_raw_entry(k));
+        if (quantities.density)
+          density.push_back(row.density[point]);
       }
   }
 
@@ -308,6 +312,7 @@ private:
     write_own("displacement", displacement, dim);
     write_own("velocity", velocity, dim);
     write_own("stress", stress, n_stress);
+    write_own("density", density, 1);
     time.clear();
     n_written += n;
     return problem;
@@ -319,7 +324,7 @@ private:
   const unsigned int             rank;
   const hsize_t                  first_point, n_own_points, n_rows;
   hsize_t                        n_written = 0;
-  std::vector<double>            time, displacement, velocity, stress; ///< since the last flush
+  std::vector<double>            time, displacement, velocity, stress, density; ///< since the last flush
 };
 } // namespace
 

@@ -79,6 +79,9 @@ void Statistics::write_header(const EnergyReport &report)
   energy("kinetic");
   energy("strain");
   energy("hourglass");
+  if (report.stores_points)
+    for (const char *what : {"dissipated by the law", "dissipated by bulk viscosity", "hypoelastic volume change"})
+      energy(what);
   for (const auto &account : report.work)
     energy("work of " + account.first);
   energy("initial");
@@ -110,6 +113,9 @@ void Statistics::add(const EnergyReport &report, const StepInfo &info)
       energy(report.kinetic);
       energy(report.strain);
       energy(report.hourglass);
+      if (report.stores_points)
+        for (const double value : {report.dissipated, report.bulk_viscosity, report.volume_change})
+          energy(value);
       for (const auto &account : report.work)
         energy(account.second);
       energy(report.initial);

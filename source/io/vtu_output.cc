@@ -9,6 +9,7 @@
 #include <deal.II/grid/reference_cell.h>
 #include <deal.II/lac/full_matrix.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -137,7 +138,7 @@ template <int dim>
 void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretization<dim> &discretization,
                            const VectorType &displacement, const VectorType &velocity,
                            const std::vector<LinearElastic> &materials, const double time, const unsigned int step,
-                           const std::map<std::string, Vector<float>> &cell_fields)
+                           const std::map<std::string, Vector<float>> &cell_fields, const StoredFields<dim> &stored)
 {
   const MPI_Comm         communicator = discretization.communicator;
   const unsigned int     rank         = Utilities::MPI::this_mpi_process(communicator);
@@ -159,9 +160,18 @@ void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretizatio
   AssertDimension(out.n_rows(), n_field_rows);
   for (const auto &field : cell_fields)
     out.add(field.first, "", scalar, 1);
+  const unsigned int stored_row = out.n_rows();
+  for (const std::string &name : stored.names)
+    {
+      const std::size_t unit  = name.find(" [");
+      std::string       plain = name.substr(0, unit);
+      std::replace(plain.begin(), plain.end(), ' ', '_');
+      out.add(plain, unit == std::string::npos ? "" : name.substr(unit + 2, name.size() - unit - 3), scalar, 1);
+    }
   const unsigned int x_row = out.n_rows();
 
-  const NodalStress<dim>   stresses = nodal_stress(discretization, displacement, materials);
+  std::vector<VectorType>  others;
+  const NodalStress<dim>   stresses = nodal_stress(discretization, displacement, materials, stored, &others);
   const FullMatrix<double> matrix   = interpolation_matrix(discretization.degree(), s);
   const unsigned int       n_nodes  = discretization.nodes_per_cell();
   const unsigned int       n_points = Utilities::pow(s + 1, dim);
@@ -199,6 +209,12 @@ void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretizatio
       store(v_row, velocity);
       store(x_row, discretization.positions);
 
+      for (unsigned int k = 0; k < others.size(); ++k)
+        {
+          evaluate(others[k], 1, 0);
+          for (unsigned int q = 0; q < n_points; ++q)
+            patch.data(stored_row + k, q) = static_cast<float>(values[q]);
+        }
       for (unsigned int k = 0; k < n_stress; ++k)
         {
           evaluate(stresses[k], 1, 0);

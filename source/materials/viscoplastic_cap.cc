@@ -62,6 +62,19 @@ std::vector<std::string> ViscoplasticCap<Stiffness>::warnings() const
   return sentences;
 }
 
+template <typename Stiffness>
+double ViscoplasticCap<Stiffness>::relaxation_time_at_rest() const
+{
+  if (viscosity != Viscosity::perzyna || fluidity == 0.)
+    return viscosity == Viscosity::duvaut_lions ? relaxation_time : 0.;
+  PointIncrement<double> rest;
+  rest.density_old = rest.density = density();
+  auto         history            = stiffness.initial_history();
+  const auto   moduli             = stiffness.moduli(rest, history);
+  const double R                  = surface.axis_ratio;
+  return overstress / (fluidity * (9. * moduli.K / (R * R) + moduli.G));
+}
+
 template struct ViscoplasticCap<ConstantStiffness>;
 template struct ViscoplasticCap<SoilStiffness>;
 static_assert(IsMaterialLaw<ViscoplasticCap<ConstantStiffness>>::value);

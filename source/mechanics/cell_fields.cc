@@ -48,6 +48,22 @@ ShapeFactors<dim> CellFields<dim>::shape(const Point<dim> &xi) const
 }
 
 template <int dim>
+double CellFields<dim>::interpolate(const double *nodal, const std::size_t stride,
+                                    const ShapeFactors<dim> &factors) const
+{
+  double sum = 0.;
+  for (unsigned int line = 0; line < discretization.nodes_per_cell() / n; ++line)
+    {
+      double weight = 1.;
+      for (unsigned int d = 1, rest = line; d < dim; ++d, rest /= n)
+        weight *= factors.value[d][rest % n];
+      for (unsigned int i = 0; i < n; ++i)
+        sum += weight * factors.value[0][i] * nodal[(line * n + i) * stride];
+    }
+  return sum;
+}
+
+template <int dim>
 Tensor<1, dim> CellFields<dim>::value(const VectorType &field, const unsigned int cell,
                                       const ShapeFactors<dim> &factors) const
 {

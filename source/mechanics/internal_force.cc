@@ -1,7 +1,18 @@
 #include <arenite/mechanics/elastic_force.h>
+#include <arenite/mechanics/point_motion.h>
 
 namespace Arenite
 {
+BlockEnergy &BlockEnergy::operator+=(const BlockEnergy &other)
+{
+  strain += other.strain;
+  hourglass += other.hourglass;
+  dissipated += other.dissipated;
+  bulk_viscosity += other.bulk_viscosity;
+  volume_change += other.volume_change;
+  return *this;
+}
+
 void ElementChoice::declare_parameters(Parameters &parameters)
 {
   const auto section = parameters.section("Element");
@@ -19,6 +30,26 @@ void ElementChoice::declare_parameters(Parameters &parameters)
   parameters.add_quantity(
     "Hourglass coefficient", hourglass_coefficient, "-", {0., 0.2, false, false},
     "Strength of the hourglass control. Larger values stiffen bending and lower the stable step.");
+  parameters.add_choice(
+    "Volumetric strain", volumetric_strain, {"pointwise", "mean dilatation"},
+    "Only hexahedra. With mean dilatation all points of a cell have its mean change of volume: nearly incompressible "
+    "material does not lock.");
+  parameters.add_quantity(
+    "Linear bulk viscosity", linear_viscosity, "-", {0., 10., false, false},
+    "b1 in q = rho l (b2^2 l |D| + b1 c) |D|, for blocks that are not linear elastic at small "
+    "strain. Damps the ringing behind shocks; larger values widen waves and lower the stable step.");
+  parameters.add_quantity("Quadratic bulk viscosity", quadratic_viscosity, "-", {0., 10., false, false},
+                          "b2: spreads strong shocks over a few cells. 0 with b1 = 0 switches the viscosity off.");
+  parameters.add_flag("Bulk viscosity in expansion", viscosity_in_expansion,
+                      "Let the linear part act in expansion, too: releases into yielding material do not ring.");
+}
+
+void KinematicsChoice::declare_parameters(Parameters &parameters)
+{
+  parameters.add_choice("Kinematics", kinematics, {"small strain", "finite strain"},
+                        "Strain measure. Finite strain: logarithmic increments on the deformed shape, Cauchy stress.");
+  parameters.add_choice("Objective rate", rate, {"Jaumann", "Green-Naghdi"},
+                        "How the stress turns at finite strain: with the spin, or with the polar rotation.");
 }
 
 void ElementChoice::finalize(const Parameters &parameters)
@@ -30,7 +61,11 @@ void ElementChoice::finalize(const Parameters &parameters)
       if (degree < 2 && DimensionChoice(parameters).dimension == 3)
         parameters.refuse("Element/Degree", "spectral elements have degree 2, 3 or 4; degree 1 is 'Type = hexahedron'");
     }
-  else if (degree != 1)
+  if (volumetric_strain == "mean dilatation" && type != "hexahedron")
+    parameters.refuse("Element/Volumetric strain",
+                      "'mean dilatation' is for 'Type = hexahedron'; one point has no other, and "
+                      "higher degrees do not need it");
+  if (type != "spectral element" && degree != 1)
     parameters.refuse("Element/Degree", "'" + type + "' has degree 1; higher degrees need 'Type = spectral element'");
 }
 

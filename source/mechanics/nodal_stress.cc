@@ -52,21 +52,53 @@ double pressure(const SymmetricTensor<2, 3> &stress) { return -trace(stress) / 3
 
 double von_mises_stress(const SymmetricTensor<2, 3> &stress) { return std::sqrt(1.5) * deviator(stress).norm(); }
 
+namespace
+{
+/// Sums over cells become means; ghosts and hanging nodes follow.
+template <int dim>
+void divide(const Discretization<dim> &discretization, VectorType &sum, const VectorType &count)
+{
+  sum.compress(VectorOperation::add);
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    if (count.local_element(node) > 0.)
+      sum.local_element(node) /= count.local_element(node);
+  make_consistent(discretization, sum);
+}
+} // namespace
+
 template <int dim>
 NodalStress<dim> nodal_stress(const Discretization<dim> &discretization, const VectorType &displacement,
-                              const std::vector<LinearElastic> &materials)
+                              const std::vector<LinearElastic> &materials, const StoredFields<dim> &stored,
+                              std::vector<VectorType> *others)
 {
   NodalStress<dim> sums;
   for (VectorType &component : sums)
     component = discretization.new_scalar();
-  VectorType count = discretization.new_scalar();
+  VectorType count = discretization.new_scalar(), stored_count = count;
+  if (others)
+    others->assign(stored.names.size(), count);
 
   const FullMatrix<double>    derivative = derivative_matrix(discretization.degree());
   const unsigned int          n_nodes    = discretization.nodes_per_cell();
   std::vector<Tensor<1, dim>> x(n_nodes), u(n_nodes);
+  std::vector<double>         values;
   for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
     {
-      const unsigned int  *nodes = discretization.cell_nodes(cell);
+      const unsigned int *nodes = discretization.cell_nodes(cell);
+      if (stored.values && stored.values(cell, values))
+        {
+          const std::size_t n_values = values.size() / n_nodes;
+          for (unsigned int n = 0; n < n_nodes; ++n)
+            {
+              for (unsigned int k = 0; k < sums.size(); ++k)
+                sums[k].local_element(nodes[n]) += values[n * n_values + k];
+              for (unsigned int k = 0; others && k < others->size(); ++k)
+                (*others)[k].local_element(nodes[n]) += values[n * n_values + 6 + k];
+              count.local_element(nodes[n]) += 1.;
+              stored_count.local_element(nodes[n]) += 1.;
+            }
+          continue;
+        }
       const LinearElastic &material =
         materials.size() == 1 ? materials.front() : materials.at(discretization.cells()[cell]->material_id());
       for (unsigned int n = 0; n < n_nodes; ++n)
@@ -88,13 +120,11 @@ NodalStress<dim> nodal_stress(const Discretization<dim> &discretization, const V
     }
 
   count.compress(VectorOperation::add);
+  stored_count.compress(VectorOperation::add);
   for (VectorType &component : sums)
-    {
-      component.compress(VectorOperation::add);
-      for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
-        component.local_element(node) /= count.local_element(node);
-      make_consistent(discretization, component);
-    }
+    divide(discretization, component, count);
+  for (unsigned int k = 0; others && k < others->size(); ++k)
+    divide(discretization, (*others)[k], stored_count);
   if constexpr (dim == 2)
     for (unsigned int node = 0; node < discretization.n_local_nodes(); ++node)
       if (discretization.on_axis(node))
@@ -102,7 +132,10 @@ NodalStress<dim> nodal_stress(const Discretization<dim> &discretization, const V
   return sums;
 }
 
-template NodalStress<1> nodal_stress(const Discretization<1> &, const VectorType &, const std::vector<LinearElastic> &);
-template NodalStress<2> nodal_stress(const Discretization<2> &, const VectorType &, const std::vector<LinearElastic> &);
-template NodalStress<3> nodal_stress(const Discretization<3> &, const VectorType &, const std::vector<LinearElastic> &);
+template NodalStress<1> nodal_stress(const Discretization<1> &, const VectorType &, const std::vector<LinearElastic> &,
+                                     const StoredFields<1> &, std::vector<VectorType> *);
+template NodalStress<2> nodal_stress(const Discretization<2> &, const VectorType &, const std::vector<LinearElastic> &,
+                                     const StoredFields<2> &, std::vector<VectorType> *);
+template NodalStress<3> nodal_stress(const Discretization<3> &, const VectorType &, const std::vector<LinearElastic> &,
+                                     const StoredFields<3> &, std::vector<VectorType> *);
 } // namespace Arenite

@@ -1,5 +1,7 @@
 #include <arenite/loads/body_force.h>
 #include <arenite/loads/nodal_force.h>
+#include <arenite/materials/elasticity_at_rest.h>
+#include <arenite/materials/law_list.h>
 #include <arenite/simulation/material_bench.h>
 #include <arenite/simulation/scene.h>
 
@@ -25,7 +27,9 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
   parameters.add_choice("Symmetry", symmetry_name, symmetry_names(),
                         "What a mesh of fewer dimensions stands for: in two 'plane strain' or 'axisymmetric' (first "
                         "coordinate r, second z), in one 'plane wave' (uniaxial strain) or 'spherical' (r).");
-  parameters.add_choice("Kinematics", kinematics, {"small strain"}, "Strain measure.");
+  const bool finite_strain =
+    parameters.peek_choice("Kinematics", "small strain", {"small strain", "finite strain"}) == "finite strain";
+  kinematics.declare_parameters(parameters);
   parameters.add_quantity("End time", end_time, "s", positive, "The run starts at 0 and ends here.");
 
   block_names = parameters.peek_list("Blocks");
@@ -43,17 +47,20 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
     for (const std::string &name : block_names)
       {
         blocks.emplace_back();
-        Block &block                 = blocks.back();
-        block.name                   = name;
-        block.material_id            = blocks.size() - 1;
-        const auto        subsection = parameters.section(name);
-        const std::string law        = declare_law(parameters, block.law);
-        if (block.law != "linear elastic")
-          parameters.refuse(law, "runs on the bench (arenite material FILE.prm) and not yet in a mesh; a scene takes "
-                                 "'linear elastic'.");
+        Block &block          = blocks.back();
+        block.name            = name;
+        block.material_id     = blocks.size() - 1;
+        const auto subsection = parameters.section(name);
+        declare_law(parameters, block.law_name);
         parameters.add_integer("Material id", block.material_id, 0, 254,
                                "Id of the block's cells in the mesh; a single block takes all cells.");
-        block.constants.declare_parameters(parameters);
+        if (block.law_name == "linear elastic" && !finite_strain)
+          {
+            block.constants.declare_parameters(parameters);
+            continue;
+          }
+        block.law = material_laws(native_lanes).make(block.law_name);
+        block.law->declare_parameters(parameters);
       }
   }
   {
@@ -90,7 +97,13 @@ void Scene<dim>::finalize(Parameters &parameters)
   std::map<unsigned int, std::string> ids;
   for (Block &block : blocks)
     {
-      block.material                = block.constants.finalize(parameters);
+      if (block.law)
+        {
+          block.law->finalize(parameters);
+          block.material = elasticity_at_rest(*block.law);
+        }
+      else
+        block.material = block.constants.finalize(parameters);
       const auto [position, is_new] = ids.emplace(block.material_id, block.name);
       if (!is_new)
         parameters.refuse("Materials/" + block.name + "/Material id",
@@ -101,6 +114,11 @@ void Scene<dim>::finalize(Parameters &parameters)
   constraints.finalize(parameters, *mesh.geometry);
   time_step.finalize(parameters);
   adaptor.finalize(parameters, mesh, *mesh.geometry);
+  for (const Block &block : blocks)
+    if (block.law && adaptor.active())
+      parameters.refuse("Adaptivity/Levels",
+                        "the points of block '" + block.name +
+                          "' remember their past, which does not move to other cells yet; use 'Levels = 0'");
   receivers.finalize(parameters);
   pictures.finalize(parameters);
   statistics.finalize(parameters);
@@ -111,7 +129,7 @@ void Scene<dim>::finalize(Parameters &parameters)
       pressure = candidate->pressure_history().get();
   exact_solution = solution_choice.make(parameters, blocks.front().material, pressure, symmetry);
   for (const Block &block : blocks)
-    if (exact_solution && !(block.material == blocks.front().material))
+    if (exact_solution && !(block.material == blocks.front().material && block.law_name == blocks.front().law_name))
       parameters.refuse("Verification/Exact solution", "holds for one material, but the blocks '" +
                                                          blocks.front().name + "' and '" + block.name + "' differ");
   constraints.exact_solution = exact_solution.get();

@@ -48,11 +48,8 @@ void Simulation<dim>::set_up()
   scene.adaptor.initial_refinement(triangulation, discretization, loaded);
 
   std::vector<std::unique_ptr<InternalForce<dim>>> blocks;
-  for (const Block &block : scene.blocks)
-    blocks.push_back(
-      make_elastic_force<dim>(scene.element, block.material,
-                              scene.blocks.size() == 1 ? numbers::invalid_material_id : block.material_id,
-                              scene.symmetry));
+  for (Block &block : scene.blocks)
+    blocks.push_back(make_block(block));
   dynamics = std::make_unique<Dynamics<dim>>(discretization, std::move(blocks), std::move(scene.loads),
                                              scene.constraints, material_of_block());
   dynamics->reinit(state);
@@ -62,6 +59,20 @@ void Simulation<dim>::set_up()
   initial_mass              = dynamics->total_mass();
   record.setup_core_seconds = core_seconds(start);
   describe();
+}
+
+template <int dim>
+std::unique_ptr<InternalForce<dim>> Simulation<dim>::make_block(Block &block) const
+{
+  const types::material_id id = scene.blocks.size() == 1 ? numbers::invalid_material_id : block.material_id;
+  if (!block.law)
+    return make_elastic_force<dim>(scene.element, block.material, id, scene.symmetry);
+  for (const std::string &warning : block.law->warnings())
+    log << "Warning    block '" << block.name << "': " << warning << '\n';
+  if (scene.element.degree > 1 && !block.law->history_names().empty())
+    log << "Warning    block '" << block.name << "' remembers what it went through, and elements of degree "
+        << scene.element.degree << " overshoot at shocks, for good. Degree 1 does not.\n";
+  return make_law_force<dim>(scene.element, scene.kinematics, std::move(block.law), id, scene.symmetry);
 }
 
 /// Every cell needs a block and every block a cell; a single block takes all cells.
@@ -127,8 +138,9 @@ void Simulation<dim>::describe() const
   for (unsigned int b = 0; b < scene.blocks.size(); ++b)
     {
       const LinearElastic &m = scene.blocks[b].material;
-      text << "Block      " << scene.blocks[b].name << ": " << dynamics->blocks[b]->description()
-           << "; cp = " << m.p_wave_speed() << " m/s, cs = " << m.s_wave_speed() << " m/s\n";
+      text << "Block      " << scene.blocks[b].name << ": " << scene.blocks[b].law_name << ", "
+           << dynamics->blocks[b]->description() << "; cp = " << m.p_wave_speed() << " m/s, cs = " << m.s_wave_speed()
+           << " m/s\n";
       scene.blocks[b].constants.for_each_constant([&](const char *name, const double value, const std::string &unit) {
         text << "           " << name << ' ' << value << (has_unit(unit) ? " " + unit : "") << '\n';
       });
@@ -138,7 +150,7 @@ void Simulation<dim>::describe() const
   text << "Mass       " << initial_mass * scene.mesh.geometry->symmetry_factor() << " kg" << per_extent(scene.symmetry)
        << " of the full body; boundaries: " << join(scene.mesh.geometry->boundary_names()) << '\n';
   text << "Step       stable up to " << scene.time_step.limit() << " s (cell at " << scene.time_step.limiting_place()
-       << "), about " << expected_steps() << " steps of " << scene.time_step.next(0., scene.end_time) << " s";
+       << "), about " << expected_steps() << " steps of " << scene.end_time / expected_steps() << " s";
   log << text.str() << '\n';
 }
 
@@ -154,9 +166,20 @@ MaterialOfBlock Simulation<dim>::material_of_block() const
 }
 
 template <int dim>
+void Simulation<dim>::reinit_receivers()
+{
+  StoredPointValues<dim> stored;
+  if (dynamics->stores_points())
+    stored = [this](const State<dim> &s, const unsigned int cell, std::vector<double> &values) {
+      return dynamics->point_values(s, cell, values);
+    };
+  scene.receivers.reinit(discretization, material_of_block(), stored);
+}
+
+template <int dim>
 double Simulation<dim>::expected_steps() const
 {
-  return std::ceil(scene.end_time / scene.time_step.next(0., scene.end_time));
+  return std::ceil(scene.end_time / scene.time_step.usual());
 }
 
 template <int dim>
@@ -197,10 +220,16 @@ void Simulation<dim>::describe_cost()
 template <int dim>
 void Simulation<dim>::run(const OutputDirectory &directory)
 {
-  scene.receivers.reinit(discretization, material_of_block());
+  reinit_receivers();
   scene.receivers.open(directory.path(), 0., scene.end_time, scene.exact_solution.get());
   scene.statistics.open(directory, log, 0., scene.end_time, scene.mesh.geometry->symmetry_factor(),
                         per_extent(scene.symmetry));
+  if (dynamics->stores_points()) // what the points store at rest, or in a state that they are set into
+    {
+      dynamics->compute_force(state);
+      watch(dynamics->point_limits(state));
+      state.force = 0.;
+    }
   dynamics->balance.set_initial(dynamics->total_energy(state, 0.));
 
   const auto start = Clock::now();
@@ -254,11 +283,18 @@ void Simulation<dim>::run(const OutputDirectory &directory)
 template <int dim>
 void Simulation<dim>::march(const OutputDirectory &directory)
 {
+  const bool follows_points = dynamics->stores_points();
   while (true)
     {
       const bool last = state.time >= scene.end_time * (1. - 1e-12);
       dynamics->compute_force(state);
-      double dt = last ? state.dt_last : scene.time_step.next(state.time, scene.end_time);
+      if (follows_points)
+        {
+          const PointLimits<dim> limits = dynamics->point_limits(state);
+          watch(limits);
+          scene.time_step.follow(limits.stable_step);
+        }
+      double dt = last ? state.dt_last : scene.time_step.next(state.time, scene.end_time, state.dt_last);
       dynamics->close_force(state, dt);
       if (!last && scene.adaptor.due(state.time) && adapt(dt))
         dt = scene.time_step.next(state.time, scene.end_time);
@@ -295,7 +331,7 @@ bool Simulation<dim>::adapt(const double dt_old)
       if (after.momentum_scale > 0.)
         record.momentum_error =
           std::max(record.momentum_error, (after.momentum - before->momentum).norm() / after.momentum_scale);
-      scene.receivers.reinit(discretization, material_of_block());
+      reinit_receivers();
       ++n_adaptations;
     }
   scene.adaptor.schedule(*dynamics, state.time);
@@ -334,9 +370,58 @@ void Simulation<dim>::write_picture(const OutputDirectory &directory)
       materials.resize(std::max<std::size_t>(materials.size(), scene.blocks.size() == 1 ? 1 : block.material_id + 1));
       materials[scene.blocks.size() == 1 ? 0 : block.material_id] = block.material;
     }
+  StoredFields<dim> stored;
+  if (dynamics->stores_points())
+    {
+      stored.names  = dynamics->names_of_point_values();
+      stored.values = [this](const unsigned int cell, std::vector<double> &values) {
+        return dynamics->point_values(state, cell, values);
+      };
+    }
   scene.pictures.write(directory, discretization, state.displacement, dynamics->velocity(state), materials, state.time,
-                       state.step);
+                       state.step, {}, stored);
   output_seconds += core_seconds(start);
+}
+
+/// A point that is inverted or not finite ends the run: with the cell, its place and its state.
+template <int dim>
+void Simulation<dim>::watch(const PointLimits<dim> &limits) const
+{
+  if (!limits.failed)
+    return;
+  std::string text;
+  if (static_cast<int>(Utilities::MPI::this_mpi_process(communicator)) == limits.failed_rank)
+    for (unsigned int b = 0; b < dynamics->blocks.size() && text.empty(); ++b)
+      {
+        const PointData &points = state.blocks[b].points;
+        if (points.failed_cell == std::numeric_limits<unsigned int>::max())
+          continue;
+        std::vector<double> values;
+        dynamics->blocks[b]->point_values(state, state.blocks[b], points.failed_cell, values);
+        const auto         names = dynamics->blocks[b]->names_of_point_values();
+        const std::size_t  n     = 6 + names.size();
+        const double      *v     = &values[0];
+        std::ostringstream message;
+        message << "cell " << discretization.cells()[points.failed_cell]->id() << " around ("
+                << discretization.cells()[points.failed_cell]->center() << "), block '" << scene.blocks[b].name
+                << "': ";
+        bool inverted = false;
+        for (std::size_t node = 0; node * n < values.size(); ++node)
+          inverted = inverted || !(values[node * n + 6] > 0.);
+        message << (inverted ? "the cell is inverted (J <= 0)" : "a value is not a number")
+                << ".\nAt its first node: stress";
+        for (unsigned int k = 0; k < 6; ++k)
+          message << ' ' << v[k];
+        message << " Pa";
+        for (std::size_t k = 0; k < names.size(); ++k)
+          message << ", " << names[k] << ' ' << v[6 + k];
+        text = message.str();
+      }
+  text = Utilities::MPI::broadcast(communicator, text, limits.failed_rank);
+  std::ostringstream message;
+  message << "t = " << state.time << " s, step " << state.step << ", " << text << ".\nThe step is " << state.dt_last
+          << " s. Lower 'Time stepping / Courant number', refine there, raise the bulk viscosity, or look at the load.";
+  throw PhysicsAlarm(message.str());
 }
 
 /// Stop a run whose state left physics: with the time, the place and the likely cause.

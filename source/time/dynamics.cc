@@ -1,11 +1,31 @@
 #include <arenite/time/dynamics.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace Arenite
 {
 using namespace dealii;
+
+namespace
+{
+/// The points of a block have to go on to @p step. @return whether they do
+bool begin_step(PointData &points, const unsigned int step)
+{
+  points.advances = points.stores_points && points.step != step;
+  if (points.advances)
+    {
+      points.step          = step;
+      points.stored_energy = 0.;
+      points.stable_step   = std::numeric_limits<double>::infinity();
+      points.volume_rate   = 0.;
+      points.substeps      = 1.;
+    }
+  return points.advances;
+}
+} // namespace
 
 template <int dim>
 Dynamics<dim>::Dynamics(Discretization<dim> &discretization, std::vector<std::unique_ptr<InternalForce<dim>>> blocks,
@@ -36,8 +56,10 @@ void Dynamics<dim>::reinit(State<dim> &state)
     {
       block->reinit(discretization);
       block->add_mass(nodal.partial);
-      state.viscous.emplace_back();
-      state.viscous.back().amplitude.resize(block->n_viscous_amplitudes(), 0.);
+      state.blocks.emplace_back();
+      block->reinit_state(state.blocks.back());
+      if (state.blocks.back().points.stores_points)
+        state.last_displacement = discretization.new_vector();
     }
   copy_with_ghosts(nodal.partial, nodal.condensed);
   VectorType &mass = nodal.condensed;
@@ -71,12 +93,16 @@ void Dynamics<dim>::compute_internal_force(State<dim> &state, const bool overlap
   VectorType         &u = state.displacement, &f = state.force;
   const auto          add = [&](const CellPart part) {
     for (unsigned int b = 0; b < blocks.size(); ++b)
-      blocks[b]->add(f, state, part, state.viscous[b]);
+      blocks[b]->add(f, state, part, state.blocks[b]);
   };
 
-  state.viscous.resize(blocks.size()); // without amplitudes if the state was not sized by reinit(): no record
-  for (ViscousForces &viscous : state.viscous)
-    viscous.power = 0.;
+  state.blocks.resize(blocks.size()); // without room if the state was not sized by reinit(): no record
+  bool advances = false;
+  for (BlockState &record : state.blocks)
+    {
+      record.power = 0.;
+      advances |= begin_step(record.points, state.step);
+    }
   for (const auto &block : blocks)
     if (block->uses_velocity())
       {
@@ -101,6 +127,12 @@ void Dynamics<dim>::compute_internal_force(State<dim> &state, const bool overlap
     add(CellPart::inner_second);
   f.compress_finish(VectorOperation::add);
   hanging.condense<dim>(f.begin()); // what inner_second left at hanging nodes; the others are zero by now
+  if (advances)
+    {
+      for (BlockState &record : state.blocks)
+        record.points.advances = false;
+      copy_with_ghosts(u, state.last_displacement);
+    }
 }
 
 template <int dim>
@@ -124,8 +156,8 @@ void Dynamics<dim>::close_force(State<dim> &state, const double dt, const bool b
     return;
   book_work(state, 0.5 * state.dt_last);
   // both halves of the step behind at once, with the forces at its ends: the second needs the forces of t_n, which depend on v_{n-1/2}
-  for (const ViscousForces &viscous : state.viscous)
-    balance.add_work(loads.size() + 1, -state.dt_last * viscous.power);
+  for (const BlockState &record : state.blocks)
+    balance.add_work(loads.size() + 1, -state.dt_last * record.power);
   if (mean != state.dt_last)
     balance.add_step_change(0.5 * (mean - state.dt_last) * power(state));
 }
@@ -134,15 +166,17 @@ template <int dim>
 EnergyReport Dynamics<dim>::report(const State<dim> &state, const double dt)
 {
   const BlockEnergy stored = stored_energy(state);
-  return balance.report(state.time, kinetic_energy(state, 0.5 * (state.dt_last + dt)), stored.strain, stored.hourglass,
-                        discretization.communicator);
+  EnergyReport      result =
+    balance.report(state.time, kinetic_energy(state, 0.5 * (state.dt_last + dt)), stored, discretization.communicator);
+  result.stores_points = stores_points();
+  return result;
 }
 
 template <int dim>
 double Dynamics<dim>::total_energy(const State<dim> &state, const double dt) const
 {
   const BlockEnergy stored = stored_energy(state);
-  return Utilities::MPI::sum(kinetic_energy(state, 0.5 * (state.dt_last + dt)) + stored.strain + stored.hourglass,
+  return Utilities::MPI::sum(kinetic_energy(state, 0.5 * (state.dt_last + dt)) + stored.total(),
                              discretization.communicator);
 }
 
@@ -162,13 +196,75 @@ template <int dim>
 BlockEnergy Dynamics<dim>::stored_energy(const State<dim> &state) const
 {
   BlockEnergy total;
-  for (const auto &block : blocks)
-    {
-      const BlockEnergy energy = block->energy(state);
-      total.strain += energy.strain;
-      total.hourglass += energy.hourglass;
-    }
+  for (unsigned int b = 0; b < blocks.size(); ++b)
+    total += blocks[b]->energy(state, state.blocks[b]);
   return total;
+}
+
+template <int dim>
+bool Dynamics<dim>::stores_points() const
+{
+  return std::any_of(blocks.begin(), blocks.end(), [](const auto &block) { return block->stores_points(); });
+}
+
+template <int dim>
+PointLimits<dim> Dynamics<dim>::point_limits(const State<dim> &state) const
+{
+  // the smallest of (step, -volume rate, -substeps, rank with a failure) in one message
+  const int           rank = Utilities::MPI::this_mpi_process(discretization.communicator);
+  std::vector<double> least{std::numeric_limits<double>::infinity(), 0., -1., std::numeric_limits<double>::infinity()};
+  for (const BlockState &record : state.blocks)
+    {
+      const PointData &points = record.points;
+      // a step that is not a number comes with a failure
+      least[0] = std::min(least[0], std::isnan(points.stable_step) ? 0. : points.stable_step);
+      least[1] = std::min(least[1], -points.volume_rate);
+      least[2] = std::min(least[2], -points.substeps);
+      if (points.failed_cell != std::numeric_limits<unsigned int>::max())
+        least[3] = rank;
+    }
+  Utilities::MPI::min(least, discretization.communicator, least);
+  PointLimits<dim> limits;
+  limits.stable_step = least[0];
+  limits.volume_rate = -least[1];
+  limits.substeps    = -least[2];
+  limits.failed      = std::isfinite(least[3]);
+  limits.failed_rank = limits.failed ? static_cast<int>(least[3]) : -1;
+  return limits;
+}
+
+template <int dim>
+std::vector<std::string> Dynamics<dim>::names_of_point_values() const
+{
+  std::vector<std::string> names;
+  for (const auto &block : blocks)
+    for (const std::string &name : block->names_of_point_values())
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+  return names;
+}
+
+template <int dim>
+bool Dynamics<dim>::point_values(const State<dim> &state, const unsigned int cell, std::vector<double> &values) const
+{
+  for (unsigned int b = 0; b < blocks.size(); ++b)
+    if (blocks[b]->point_values(state, state.blocks[b], cell, values))
+      {
+        const auto all = names_of_point_values(), own = blocks[b]->names_of_point_values();
+        if (own == all)
+          return true;
+        const std::size_t   n_nodes = values.size() / (6 + own.size());
+        std::vector<double> sorted(n_nodes * (6 + all.size()), 0.);
+        for (std::size_t node = 0; node < n_nodes; ++node)
+          for (std::size_t k = 0; k < 6 + own.size(); ++k)
+            {
+              const std::size_t to = k < 6 ? k : 6 + (std::find(all.begin(), all.end(), own[k - 6]) - all.begin());
+              sorted[node * (6 + all.size()) + to] = values[node * (6 + own.size()) + k];
+            }
+        values.swap(sorted);
+        return true;
+      }
+  return false;
 }
 
 template <int dim>

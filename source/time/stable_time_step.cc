@@ -20,6 +20,12 @@ void StableTimeStep<dim>::declare_parameters(Parameters &parameters)
     "Part of the stable step. The error in time grows with its square; above 1 the run may blow up.");
   parameters.add_quantity("Fixed step", fixed, "s", non_negative,
                           "Use this step whatever the mesh needs; 0 follows the stable step.");
+  parameters.add_quantity(
+    "First step", first, "s", non_negative,
+    "Where materials have memory or strains are finite; 0 takes a hundredth of the stable step, because the load may "
+    "start with a jump.");
+  parameters.add_quantity("Largest growth", growth, "-", {1., 10., true, false},
+                          "Where materials have memory or strains are finite: of a step over the last one.");
   parameters.add_quantity("Largest step", largest, "s", non_negative, "Upper limit, for accuracy in time; 0 for none.");
 }
 
@@ -112,12 +118,13 @@ double largest_eigenvalue(Dynamics<dim> &dynamics, const unsigned int n_iteratio
 }
 
 template <int dim>
-double StableTimeStep<dim>::element_bound(const Dynamics<dim> &dynamics)
+double StableTimeStep<dim>::element_bound(const Dynamics<dim> &dynamics, const bool without_points)
 {
   const auto    &cells = dynamics.discretization.cells();
   Vector<double> size(cells.size());
   for (const auto &block : dynamics.blocks)
-    block->inverse_size_squared(size);
+    if (!(without_points && block->stores_points()))
+      block->inverse_size_squared(size);
   double       largest_of_process = 0.;
   unsigned int limiting           = 0;
   for (unsigned int cell = 0; cell < cells.size(); ++cell)
@@ -190,20 +197,42 @@ double StableTimeStep<dim>::assembled_bound(Dynamics<dim> &dynamics, const doubl
 template <int dim>
 void StableTimeStep<dim>::update(Dynamics<dim> &dynamics)
 {
-  const double elements  = element_bound(dynamics);
-  const double assembled = assembled_bound(dynamics, elements);
-  element_step           = 2. / std::sqrt(elements);
-  critical_step          = 2. / std::sqrt(std::min(elements, assembled));
+  follows_points = dynamics.stores_points();
+  if (follows_points)
+    {
+      // the moduli change with the state: what the assembled system gains over its elements is not used
+      elastic_step   = 2. / std::sqrt(element_bound(dynamics, true)); // infinite without such blocks
+      step_of_points = element_step = critical_step = 2. / std::sqrt(element_bound(dynamics));
+    }
+  else
+    {
+      const double elements  = element_bound(dynamics);
+      const double assembled = assembled_bound(dynamics, elements);
+      element_step           = 2. / std::sqrt(elements);
+      critical_step          = 2. / std::sqrt(std::min(elements, assembled));
+    }
   if (!(critical_step > 0. && std::isfinite(critical_step)))
     throw InputError("[Mesh]: no step is stable on this mesh; some node has no mass, or some cell no volume.");
 }
 
 template <int dim>
-double StableTimeStep<dim>::next(const double time, const double end_time) const
+double StableTimeStep<dim>::usual() const
 {
-  double dt = fixed > 0. ? fixed : courant * critical_step;
-  if (largest > 0.)
-    dt = std::min(dt, largest);
+  const double dt = fixed > 0. ? fixed : courant * limit();
+  return largest > 0. ? std::min(dt, largest) : dt;
+}
+
+template <int dim>
+double StableTimeStep<dim>::next(const double time, const double end_time, const double dt_last) const
+{
+  double dt = usual();
+  if (follows_points && fixed == 0.)
+    {
+      if (dt_last > 0.)
+        dt = std::min(dt, growth * dt_last);
+      else // nobody knows yet what a piston or a jump of velocities does
+        dt = first > 0. ? std::min(dt, first) : 0.01 * dt;
+    }
   const double left = end_time - time;
   return left / std::max(1., std::ceil(left / dt * (1. - 1e-12)));
 }

@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(lanes_agree)
         const auto              compute = [&](std::unique_ptr<InternalForce<3>> block) {
           block->reinit(body.discretization);
           forces.push_back(body.discretization.new_vector());
-          ViscousForces unused;
+          BlockState unused;
           for (const auto part : {CellPart::boundary, CellPart::inner_first, CellPart::inner_second})
             block->add(forces.back(), body.state, part, unused);
         };

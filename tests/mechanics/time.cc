@@ -75,9 +75,9 @@ public:
     discretization = &d;
     block->reinit(d);
   }
-  void add(VectorType &force, const State<3> &state, const CellPart part, ViscousForces &viscous) const override
+  void add(VectorType &force, const State<3> &state, const CellPart part, BlockState &record) const override
   {
-    block->add(force, state, part, viscous);
+    block->add(force, state, part, record);
     if (part != CellPart::inner_first)
       return;
     // the displacement of this cell alone loads only its nodes and neighbours: take the part on its own nodes
@@ -92,10 +92,10 @@ public:
         }
     VectorType extra = discretization->new_vector();
     for (const auto p : {CellPart::boundary, CellPart::inner_first, CellPart::inner_second})
-      block->add(extra, alone, p, viscous);
+      block->add(extra, alone, p, record);
     force.add(1e-3, extra);
   }
-  BlockEnergy energy(const State<3> &s) const override { return block->energy(s); }
+  BlockEnergy energy(const State<3> &s, const BlockState &b) const override { return block->energy(s, b); }
   void        add_mass(VectorType &m) const override { block->add_mass(m); }
   void        inverse_size_squared(dealii::Vector<double> &v) const override { block->inverse_size_squared(v); }
   void        largest_eigenvalue(dealii::Vector<double> &v) const override { block->largest_eigenvalue(v); }

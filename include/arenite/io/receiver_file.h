@@ -16,7 +16,7 @@ namespace Arenite
 /// What a set of receivers writes; the displacement is always measured, because the velocity follows from it.
 struct ReceiverQuantities
 {
-  bool displacement = false, velocity = false, stress = false;
+  bool displacement = false, velocity = false, stress = false, density = false;
 };
 
 /// Points of a set at one time.
@@ -25,7 +25,8 @@ struct ReceiverRow
 {
   double                                     time = 0.;
   std::vector<dealii::Tensor<1, dim>>        displacement, velocity;
-  std::vector<dealii::SymmetricTensor<2, 3>> stress; ///< empty if not wanted
+  std::vector<dealii::SymmetricTensor<2, 3>> stress;  ///< empty if not wanted
+  std::vector<double>                        density; ///< [kg/m^3], empty if not wanted
 };
 
 /// Destination of completed rows. Each process adds the points of a range; flush() writes what was added since the last time.

@@ -7,6 +7,10 @@
 
 namespace Arenite
 {
+/// InternalForce::point_values() of an owned cell of any block; without it all stresses follow from displacements.
+template <int dim>
+using StoredPointValues = std::function<bool(const State<dim> &, unsigned int cell, std::vector<double> &values)>;
+
 /// One set of receivers: displacement, velocity and stress at fixed material points over the time of a run.
 ///
 /// Values are means over all cells that touch a point, so they do not depend on the partition; displacements are continuous
@@ -25,7 +29,7 @@ public:
 
   /// Locate the points, at the start and after every change of the mesh. Differences of displacements do not cross the change:
   /// the next record() starts anew from the half-step velocity of the state. Rows in the buffer stay. Collective.
-  void reinit(const Discretization<dim> &, MaterialOfBlock);
+  void reinit(const Discretization<dim> &, const MaterialOfBlock &, const StoredPointValues<dim> & = {});
 
   /// Create the files in @p directory; after the first reinit(). @p exact may be null. Collective. Lines and planes share the
   /// store, whose file is created when all of them are known.
@@ -69,6 +73,8 @@ private:
 
   bool                due(const State<dim> &);
   void                push(Kind, const VectorType &, const State<dim> &);
+  void                add_stress_and_density(unsigned int contact, const dealii::Tensor<1, dim> &u, const State<dim> &,
+                                             double *values);
   void                flush();
   std::vector<double> sums_of_own_points() const;
   void                process(const std::vector<double> &sums);
@@ -86,7 +92,9 @@ private:
   std::unique_ptr<CellFields<dim>> fields;
   PointLocation<dim>               location;
   std::vector<LinearElastic>       materials; ///< per contact
-  VectorType                       velocity;  ///< consistent copy of v_{n-1/2}
+  StoredPointValues<dim>           stored_values;
+  std::vector<double>              values_of_cell;
+  VectorType                       velocity; ///< consistent copy of v_{n-1/2}
 
   // buffer of partial sums: [header][point][u, stress]
   std::vector<Header> headers;
@@ -116,7 +124,7 @@ class ReceiverSets
 public:
   void declare_parameters(Parameters &);
   void finalize(const Parameters &);
-  void reinit(const Discretization<dim> &, const MaterialOfBlock &);
+  void reinit(const Discretization<dim> &, const MaterialOfBlock &, const StoredPointValues<dim> & = {});
   void open(const std::string &directory, double start_time, double end_time, const ExactSolution<dim> *exact);
   void record(const State<dim> &);
   void finish();

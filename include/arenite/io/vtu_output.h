@@ -3,7 +3,7 @@
 #include <arenite/base/parameters.h>
 #include <arenite/io/output_directory.h>
 #include <arenite/materials/linear_elastic.h>
-#include <arenite/mechanics/discretization.h>
+#include <arenite/mechanics/nodal_stress.h>
 
 #include <deal.II/lac/vector.h>
 
@@ -45,7 +45,8 @@ public:
   /// @param cell_fields  name without spaces -> one value per active cell; the same names on all processes
   void write(const OutputDirectory &directory, const Discretization<dim> &discretization,
              const VectorType &displacement, const VectorType &velocity, const std::vector<LinearElastic> &materials,
-             double time, unsigned int step, const std::map<std::string, dealii::Vector<float>> &cell_fields = {});
+             double time, unsigned int step, const std::map<std::string, dealii::Vector<float>> &cell_fields = {},
+             const StoredFields<dim> &stored = {});
 
   /// Pictures of a run that ends at @p end_time, if its step is shorter than the interval.
   unsigned int expected_pictures(double end_time) const;

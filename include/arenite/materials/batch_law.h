@@ -21,6 +21,7 @@ struct PointBatch
   const double *strain      = nullptr; ///< [point][6][lane], logarithmic increment, tension positive
   const double *density_old = nullptr; ///< [point][lane], at t_n [kg/m^3]
   const double *density     = nullptr; ///< [point][lane], at t_{n+1} [kg/m^3]
+  const double *heat        = nullptr; ///< [point][lane], work of artificial viscosity [J/kg]; none if null
 
   double *stress  = nullptr; ///< [point][6][lane], Cauchy stress [Pa]
   double *history = nullptr; ///< [point][n_history][lane]
@@ -52,6 +53,11 @@ public:
   virtual void   after_transfer(PointBatch &) const = 0; ///< stress and history, back to an admissible state
   virtual double density() const                    = 0; ///< at rest [kg/m^3]
   virtual double wave_speed_bound() const           = 0; ///< [m/s]
+
+  virtual bool   energy_per_present_volume() const = 0; ///< see PointState
+  virtual int    tensor_history() const = 0; ///< first of six entries of the history that turn with the point; -1: none
+  virtual double viscosity_time() const = 0; ///< of a viscous stress in proportion to the stiffness [s]; 0: none
+  virtual double relaxation_time_at_rest() const = 0; ///< of an overstress at rest [s]; 0: not known
 
   virtual std::vector<std::string>     history_names() const     = 0;
   virtual std::vector<double>          initial_history() const   = 0;
@@ -94,6 +100,38 @@ template <typename Law>
 struct HasWarnings<Law, std::void_t<decltype(std::declval<const Law &>().warnings())>> : std::true_type
 {};
 
+/// Laws may say that their energies are those of the present volume, see PointState.
+template <typename Law, typename = void>
+struct EnergyPerPresentVolume : std::false_type
+{};
+template <typename Law>
+struct EnergyPerPresentVolume<Law, std::enable_if_t<Law::energy_per_present_volume>> : std::true_type
+{};
+
+/// Laws may have a tensor in their history: six entries from Law::tensor_history on, in the order of SymTensor.
+template <typename Law, typename = void>
+struct TensorHistory : std::integral_constant<int, -1>
+{};
+template <typename Law>
+struct TensorHistory<Law, std::enable_if_t<(Law::tensor_history >= 0)>>
+  : std::integral_constant<int, Law::tensor_history>
+{};
+
+/// Laws may have times of their own.
+template <typename Law, typename = void>
+struct HasViscosityTime : std::false_type
+{};
+template <typename Law>
+struct HasViscosityTime<Law, std::void_t<decltype(std::declval<const Law &>().viscosity_time())>> : std::true_type
+{};
+template <typename Law, typename = void>
+struct HasRelaxationTime : std::false_type
+{};
+template <typename Law>
+struct HasRelaxationTime<Law, std::void_t<decltype(std::declval<const Law &>().relaxation_time_at_rest())>>
+  : std::true_type
+{};
+
 /// @p Law on W lanes: loops over the points, everything inside is inlined.
 template <typename Law, int W>
 class BatchLawFor final : public BatchLaw
@@ -124,7 +162,9 @@ public:
           }
         increment.density_old = load<Number>(batch.density_old + at);
         increment.density     = load<Number>(batch.density + at);
-        increment.dt          = batch.dt;
+        if (batch.heat)
+          increment.heat = load<Number>(batch.heat + at);
+        increment.dt = batch.dt;
         History history;
         load_history<History, Number>(history, batch.history + n_history * at);
 
@@ -155,6 +195,24 @@ public:
           store<Number>(stress[k], batch.stress + 6 * at + k * W);
         store_history<History, Number>(history, batch.history + n_history * at);
       }
+  }
+
+  bool energy_per_present_volume() const override { return EnergyPerPresentVolume<Law>::value; }
+  int  tensor_history() const override { return TensorHistory<Law>::value; }
+
+  double viscosity_time() const override
+  {
+    if constexpr (HasViscosityTime<Law>::value)
+      return law.viscosity_time();
+    else
+      return 0.;
+  }
+  double relaxation_time_at_rest() const override
+  {
+    if constexpr (HasRelaxationTime<Law>::value)
+      return law.relaxation_time_at_rest();
+    else
+      return 0.;
   }
 
   std::vector<std::string> history_names() const override

@@ -19,7 +19,8 @@ namespace Arenite
 /// second order in the step where E is an integral of the curve.
 ///
 /// Equations of state with energy are adiabatic: E is their internal energy, which receives all work of the pressure (crushed pores and
-/// shock heat included) to round-off, and the plastic work as heat. That heat is counted as dissipated and not again as stored.
+/// shock heat included) to round-off, and the work of plastic flow and of artificial viscosity as heat. That heat is counted where it was
+/// dissipated and not again as stored.
 ///
 /// Where a strength needs the pressure or the modulus of an equation of state with energy, a first pass without the plastic heat gives
 /// them; heat only raises both, by Gamma rho times the plastic work of the step, so that the stress stays inside of its surface.
@@ -34,7 +35,7 @@ struct EquationOfStateWithStrength
   {
     typename EOS::template History<Number>      volume;
     typename Strength::template History<Number> shear;
-    Number                                      heat = Number(0.); ///< of the plastic work [J/kg]; with energy only
+    Number heat = Number(0.); ///< of plastic and viscous work [J/kg]; with energy only
 
     template <typename F>
     void for_each(F &&f)
@@ -42,7 +43,7 @@ struct EquationOfStateWithStrength
       volume.for_each(f);
       shear.for_each(f);
       if constexpr (EOS::uses_energy)
-        f("plastic heat", heat);
+        f("heat", heat);
     }
   };
 
@@ -81,7 +82,7 @@ struct EquationOfStateWithStrength
     const SymTensor<Number> tau_n = deviator(stress_n) * J_n, strain = deviator(increment.strain);
 
     // (i) pressure and modulus, as far as they are needed for the strength
-    VolumeChange<Number>            change{increment.density_old, increment.density, p_n, Number(0.)};
+    VolumeChange<Number>            change{increment.density_old, increment.density, p_n, increment.heat};
     EquationOfStateResponse<Number> volumetric{p_n, Number(0.), Number(0.)};
     if constexpr (!EOS::uses_energy)
       volumetric = equation_of_state.update(change, history.volume);
@@ -98,7 +99,7 @@ struct EquationOfStateWithStrength
                       history.shear);
     if constexpr (EOS::uses_energy)
       {
-        change.heat  = Arenite::max<Number>(Number(0.), Number(shear.dissipated * per_mass));
+        change.heat  = increment.heat + Arenite::max<Number>(Number(0.), Number(shear.dissipated * per_mass));
         history.heat = history.heat + change.heat;
         volumetric   = equation_of_state.update(change, history.volume);
       }

@@ -99,7 +99,8 @@ private:
 /// The cap of a *rock* never contracts. Tension is cut off at I1 = -T; a point there keeps what shear the failure surface admits.
 struct GeologicCap
 {
-  static constexpr const char *name = "geologic cap";
+  static constexpr const char *name                      = "geologic cap";
+  static constexpr bool        energy_per_present_volume = true;
   static constexpr const char *description =
     "Failure surface and cap in the form of MAT_025 (Sandler-Rubin), soil or rock, rate independent.";
 

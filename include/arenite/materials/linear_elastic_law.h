@@ -12,6 +12,8 @@ struct LinearElasticLaw
   static constexpr const char *name        = "linear elastic";
   static constexpr const char *description = "Isotropic linear elasticity.";
 
+  static constexpr bool energy_per_present_volume = true;
+
   template <typename Number>
   using History = NoHistory<Number>;
 

@@ -17,6 +17,7 @@ struct PointIncrement
   SymTensor<Number> strain;                   ///< logarithmic strain increment [-], tension positive
   Number            density_old = Number(1.); ///< at t_n [kg/m^3]
   Number            density     = Number(1.); ///< at t_{n+1} [kg/m^3]
+  Number            heat        = Number(0.); ///< work of artificial viscosity in this step [J/kg]
   double            dt          = 0.;         ///< [s]
 };
 
@@ -27,9 +28,10 @@ struct Response
   SymTensor<Number> stress;                  ///< Cauchy stress [Pa], tension positive
   Number            wave_speed = Number(0.); ///< no disturbance of the present state is faster [m/s]
   Number            stored     = Number(0.); ///< recoverable energy [J/m^3], per present volume
-  Number     dissipated = Number(0.); ///< what the step turned into heat and closed pores [J/m^3], per present volume
-  double     substeps   = 1.;         ///< parts into which the law divided the step
-  Iterations iterations;              ///< of the equations that the law solved
+  Number dissipated = Number(0.); ///< what the step turned into heat and closed pores, PointIncrement::heat not counted
+                                  ///< again [J/m^3], per present volume
+  double     substeps = 1.;       ///< parts into which the law divided the step
+  Iterations iterations;          ///< of the equations that the law solved
 };
 
 /// No memory but the stress.
@@ -72,6 +74,10 @@ struct NoHistory
 //     template <typename F>
 //     void for_each_constant(F &&f) const;                         // may be left out: f(name, value, unit) of what the log shows
 //     std::vector<std::string> warnings() const;                   // may be left out: what is admissible and doubtful, for the log
+//     static constexpr bool energy_per_present_volume = true;      // may be left out: moduli of the Cauchy stress, see PointState
+//     static constexpr int  tensor_history            = 0;         // may be left out: first of six entries that turn with the point
+//     double viscosity_time() const;                               // may be left out: stiffness-proportional viscosity [s]
+//     double relaxation_time_at_rest() const;                      // may be left out: of a small overstress [s]
 //   };
 //
 // A new law is complete with its line in law_types.h.

@@ -16,11 +16,14 @@ namespace Arenite
 /// The branch is integrated exactly for a strain rate that is constant over the step, so that the step is bounded by accuracy in
 /// the load alone: h_{n+1} = h_n e^{-dt/tau} + m C : Delta eps (tau/dt) (1 - e^{-dt/tau}). Fung (1977); Roger (2015), section 2.1.
 ///
-/// The branch stress is a tensor of the frame of the strain increments: small strain, or small rotations.
+/// The branch stress is a tensor of the frame of the strain increments: who turns the stress turns it, too.
 struct Viscoelastic
 {
   static constexpr const char *name        = "viscoelastic";
   static constexpr const char *description = "Maxwell, Kelvin-Voigt or standard linear solid, exact in the branch.";
+
+  static constexpr bool energy_per_present_volume = true;
+  static constexpr int  tensor_history            = 0; ///< the branch stress
 
   enum class Model
   {
@@ -52,6 +55,9 @@ struct Viscoelastic
 
   /// Of the fastest waves: the branch is stiff for them. Kelvin-Voigt has no fastest wave, see stable_step().
   double wave_speed_bound() const { return spring.p_wave_speed() * std::sqrt(instantaneous()); }
+
+  /// tau of the viscous stress tau C : eps_dot of a Kelvin-Voigt solid [s]
+  double viscosity_time() const { return model == Model::kelvin_voigt ? relaxation_time : 0.; }
 
   /// Largest stable step of central differences for waves of length 2 h [s]: (2/omega) (sqrt(1 + xi^2) - xi), omega = 2 c/h. A
   /// Kelvin-Voigt solid has xi = tau omega/2, so that the step falls with h^2 on fine meshes.

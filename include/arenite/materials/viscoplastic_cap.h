@@ -70,7 +70,8 @@ struct ConstantStiffness
 template <typename Stiffness>
 struct ViscoplasticCap
 {
-  static constexpr const char *name = Stiffness::law_name;
+  static constexpr const char *name                      = Stiffness::law_name;
+  static constexpr bool        energy_per_present_volume = !Stiffness::changes;
   static constexpr const char *description =
     "Soil: failure surface, hardening cap and tension cut-off with overstress viscosity.";
 
@@ -183,6 +184,9 @@ struct ViscoplasticCap
 
   /// Sentences with the numbers, for the log.
   std::vector<std::string> warnings() const;
+
+  /// Of a small overstress at rest on the cap, for N = 1: f0/(eta (9 K/R^2 + G)), or the tau of Duvaut-Lions [s]
+  double relaxation_time_at_rest() const;
 
   /// The flow rule of a step.
   CapFlow flow(const double dt) const

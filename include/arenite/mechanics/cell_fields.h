@@ -61,6 +61,9 @@ public:
   /// Nearest point of the cell to @p x, by projected Gauss-Newton steps.
   Nearest nearest(unsigned int cell, const dealii::Point<dim> &x) const;
 
+  /// Polynomial through the values at the nodes of a cell, which stand @p stride apart from @p nodal on.
+  double interpolate(const double *nodal, std::size_t stride, const ShapeFactors<dim> &) const;
+
   /// Value of a vector field with valid ghosts and hanging nodes.
   dealii::Tensor<1, dim> value(const VectorType &, unsigned int cell, const ShapeFactors<dim> &) const;
 

@@ -2,7 +2,7 @@
 
 #include <arenite/mechanics/cell_batches.h>
 #include <arenite/mechanics/internal_force.h>
-#include <arenite/mechanics/multilinear_element.h>
+#include <arenite/mechanics/mean_dilatation_element.h>
 #include <arenite/mechanics/spectral_element.h>
 
 #include <deal.II/base/exceptions.h>
@@ -36,7 +36,7 @@ public:
     batches.reinit(discretization, block);
   }
 
-  void add(VectorType &force, const State<dim> &state, const CellPart part, ViscousForces &record) const override
+  void add(VectorType &force, const State<dim> &state, const CellPart part, BlockState &record) const override
   {
     const auto p = static_cast<unsigned int>(part);
     if (viscous)
@@ -46,7 +46,7 @@ public:
       add_forces<false>(force, state, batches.part_begin[p], batches.part_begin[p + 1], record);
   }
 
-  BlockEnergy energy(const State<dim> &state) const override
+  BlockEnergy energy(const State<dim> &state, const BlockState &) const override
   {
     BlockEnergy total;
     for (unsigned int b = 0; b < batches.size(); ++b)
@@ -106,14 +106,18 @@ public:
       }
   }
 
-  bool        uses_velocity() const override { return viscous; }
-  std::size_t n_viscous_amplitudes() const override { return viscous ? batches.size() * n_amplitudes * W : 0; }
+  bool uses_velocity() const override { return viscous; }
+
+  void reinit_state(BlockState &record) const override
+  {
+    record.amplitude.resize(viscous ? batches.size() * n_amplitudes * W : 0, 0.);
+  }
 
   const LinearElastic &material() const override { return law; }
 
   std::string description() const override
   {
-    return "linear elastic, small strain, 0 B/point, " + std::to_string(W) + (W == 1 ? " lane" : " lanes");
+    return "small strain, 0 B/point, " + std::to_string(W) + (W == 1 ? " lane" : " lanes");
   }
 
 private:
@@ -143,7 +147,7 @@ private:
 
   template <bool with_viscosity>
   void add_forces(VectorType &force, const State<dim> &state, const unsigned int begin, const unsigned int end,
-                  ViscousForces &record) const
+                  BlockState &record) const
   {
     const double *X = positions->begin(), *U = state.displacement.begin(), *V = state.half_velocity.begin();
     double       *F = force.begin(), *amplitudes = record.amplitude.empty() ? nullptr : record.amplitude.begin();
@@ -312,6 +316,8 @@ std::unique_ptr<InternalForce<dim>> make_elastic_kernel(const ElementChoice &ele
       case 4:
         return std::make_unique<ElasticForce<SpectralElement<dim, 4, n_hoop>, W>>(element, law, block);
       }
+  else if (element.type == "hexahedron" && element.volumetric_strain == "mean dilatation")
+    return std::make_unique<ElasticForce<MeanDilatationElement<dim, n_hoop>, W>>(element, law, block);
   else if (element.type == "hexahedron")
     return std::make_unique<ElasticForce<FullElement<dim, n_hoop>, W>>(element, law, block);
   else if (element.type == "one-point hexahedron")

@@ -20,6 +20,10 @@ struct ElementChoice
   unsigned int degree                = 1;
   std::string  hourglass_control     = "stiffness";
   double       hourglass_coefficient = 0.05;
+  std::string  volumetric_strain     = "pointwise";
+
+  double linear_viscosity = 0.06, quadratic_viscosity = 1.2; ///< of blocks with a law of their own
+  bool   viscosity_in_expansion = false;
 
   void declare_parameters(Parameters &);
   void finalize(const Parameters &);
@@ -33,11 +37,23 @@ enum class CellPart : unsigned int
   inner_second = 2  ///< while ghost forces arrive
 };
 
-/// Energies of one material block on this process [J].
+/// Energies of one material block on this process [J]. A law with energies per reference volume closes the balance
+///
+///   work = d(strain) + d(dissipated) + d(bulk viscosity) + d(hourglass)
+///
+/// to the order of the step. One whose moduli belong to the Cauchy stress per present volume (linear elastic, cap with constant moduli)
+/// is hypoelastic at finite strain: work that a volume change does on stored energy, the integral of stored dJ, is lost to it or given
+/// by it. volume_change counts that.
 struct BlockEnergy
 {
-  double strain    = 0.; ///< sum over points of sigma:epsilon/2
-  double hourglass = 0.; ///< stored by the stiffness form
+  double strain         = 0.; ///< sum over points: sigma:epsilon/2, or what the law stores
+  double hourglass      = 0.; ///< stored by the stiffness form; with a law of its own, all work on the patterns
+  double dissipated     = 0.; ///< by the law, since the start
+  double bulk_viscosity = 0.; ///< dissipated by it, since the start
+  double volume_change  = 0.; ///< minus the integral of the energy stored per present volume over dJ, since the start
+
+  double       total() const { return strain + hourglass + dissipated + bulk_viscosity + volume_change; }
+  BlockEnergy &operator+=(const BlockEnergy &other);
 };
 
 /// Internal forces of one material block: gather -> kinematics -> stress -> scatter, once per batch of cells.
@@ -50,18 +66,33 @@ public:
   /// Rebuild the batches after a change of the mesh.
   virtual void reinit(const Discretization<dim> &) = 0;
 
-  /// force += -integral of sigma : grad N over the cells of @p part. Hanging entries receive forces like all others. Viscous forces
-  /// replace those of the last evaluation in @p viscous and add their power.
-  virtual void add(VectorType &force, const State<dim> &, CellPart part, ViscousForces &viscous) const = 0;
+  /// True if stress and history of every point are stored.
+  virtual bool stores_points() const { return false; }
+
+  /// Room for what the block keeps in a state, at rest.
+  virtual void reinit_state(BlockState &) const {}
+
+  /// force += -integral of P : Grad N over the cells of @p part. Hanging entries receive forces like all others. What the block keeps is
+  /// brought to state.step first if record.points.advances; viscous hourglass forces replace those of the last evaluation and add their
+  /// power.
+  virtual void add(VectorType &force, const State<dim> &, CellPart part, BlockState &record) const = 0;
 
   /// Energies from the points, by a path that does not use the nodal forces.
-  virtual BlockEnergy energy(const State<dim> &) const = 0;
+  virtual BlockEnergy energy(const State<dim> &, const BlockState &) const = 0;
 
   /// True if the forces depend on state.half_velocity, which then needs valid ghosts and hanging nodes.
   virtual bool uses_velocity() const { return false; }
 
-  /// Size of ViscousForces::amplitude that add() needs to keep a record; 0 without viscous forces.
-  virtual std::size_t n_viscous_amplitudes() const { return 0; }
+  /// Values at the nodes of @p cell (lexicographic) of what its points store: the polynomial through the points.
+  /// @p values: [node][quantity], the six of the Cauchy stress (order of SymTensor), then names_of_point_values(). False if the cell is of another
+  /// block, or the block stores nothing because its stress follows from the displacement.
+  virtual bool point_values(const State<dim> &, const BlockState &, unsigned int, std::vector<double> &) const
+  {
+    return false;
+  }
+
+  /// Of what point_values() gives after the stress, "name [unit]".
+  virtual std::vector<std::string> names_of_point_values() const { return {}; }
 
   /// mass += integral of rho N_i, one entry per node.
   virtual void add_mass(VectorType &mass) const = 0;
@@ -73,11 +104,21 @@ public:
   /// lambda of M^-1 (K + sqrt(lambda) C): the element alone is stable up to dt = 2/sqrt(lambda) in both cases.
   virtual void largest_eigenvalue(dealii::Vector<double> &per_cell) const = 0;
 
+  /// Its elasticity at rest.
   virtual const LinearElastic &material() const = 0;
 
   /// One line for the start of the log: law, kinematics, lanes, bytes per point.
   virtual std::string description() const = 0;
 };
+
+class BatchLaw;
+struct KinematicsChoice;
+
+/// A block with the law @p law (on native_lanes), which stores stress and history of every point.
+template <int dim>
+std::unique_ptr<InternalForce<dim>> make_law_force(
+  const ElementChoice &, const KinematicsChoice &, std::unique_ptr<const BatchLaw> law,
+  dealii::types::material_id block = dealii::numbers::invalid_material_id, Symmetry = cartesian<dim>());
 
 /// Fused small-strain linear elasticity: no stress and no history is stored. @p block: material id of its cells; by default all cells.
 template <int dim, int W = native_lanes>

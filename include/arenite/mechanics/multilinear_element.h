@@ -57,8 +57,8 @@ struct FullElement
 {
   static constexpr int  dim = dim_, degree = 1, n_hoop = n_hoop_, n_nodes = power(2, dim), n_patterns = 1;
   static constexpr int  n_lines               = n_nodes / 2; ///< of Gauss points, along one direction
-  static constexpr bool has_hourglass_control = false;
-  using Modes                                 = MultilinearModes<dim>;
+  static constexpr bool has_hourglass_control = false, mean_dilatation = false, has_gauss_points = true;
+  using Modes = MultilinearModes<dim>;
 
   /// 3^(-k/2) 2^-dim for a mode with k coordinates that are taken at Gauss points.
   static constexpr double scale_of(const int mode)
@@ -342,7 +342,7 @@ struct OnePointElement
   using Own                 = OnePointModes<dim_>;
   static constexpr int  dim = dim_, degree = 1, n_hoop = n_hoop_, n_nodes = M::n;
   static constexpr int  n_patterns            = Own::n_patterns; ///< without a mean gradient, in each direction
-  static constexpr bool has_hourglass_control = dim > 1;
+  static constexpr bool has_hourglass_control = dim > 1, mean_dilatation = false, has_gauss_points = false;
 
   /// g[m][j] = integral of d phi_m/d x_j dV for the modes that carry a gradient, t[m] = integral of phi_m/r dV for all modes.
   template <typename V>

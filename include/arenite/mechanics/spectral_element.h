@@ -51,9 +51,9 @@ struct GaussLobattoBasis
 template <int dim_, int degree_, int n_hoop_ = 0>
 struct SpectralElement
 {
-  static constexpr int                     dim = dim_, degree = degree_, n_hoop = n_hoop_;
-  static constexpr int                     N = degree + 1, n_nodes = power(N, dim_), n_patterns = 1;
-  static constexpr bool                    has_hourglass_control = false;
+  static constexpr int  dim = dim_, degree = degree_, n_hoop = n_hoop_;
+  static constexpr int  N = degree + 1, n_nodes = power(N, dim_), n_patterns = 1;
+  static constexpr bool has_hourglass_control = false, mean_dilatation = false, has_gauss_points = false;
   static inline const GaussLobattoBasis<N> basis{};
 
   /// Derivative along reference direction @p d of the nodal values f at node n = (c[0], c[1], ...).

@@ -7,8 +7,10 @@
 #include <arenite/io/vtu_output.h>
 #include <arenite/loads/constraints.h>
 #include <arenite/loads/load.h>
+#include <arenite/materials/batch_law.h>
 #include <arenite/materials/elastic_constants.h>
 #include <arenite/mechanics/internal_force.h>
+#include <arenite/mechanics/point_motion.h>
 #include <arenite/mesh/geometry.h>
 #include <arenite/time/stable_time_step.h>
 #include <arenite/verification/solution_choice.h>
@@ -20,13 +22,15 @@
 
 namespace Arenite
 {
-/// A material block: a name, the cells' material id, and its law, which is linear elastic in a mesh so far.
+/// A material block: a name, the cells' material id, and its law. Linear elasticity at small strain is fused into the kernels and needs its
+/// constants only.
 struct Block
 {
-  std::string      name, law = "linear elastic";
-  unsigned int     material_id = 0;
-  ElasticConstants constants;
-  LinearElastic    material;
+  std::string               name, law_name = "linear elastic";
+  unsigned int              material_id = 0;
+  ElasticConstants          constants;
+  std::unique_ptr<BatchLaw> law;      ///< null where the kernel does without
+  LinearElastic             material; ///< elasticity at rest
 };
 
 /// Everything that a .prm says, read and checked. Members in the order of the file's sections.
@@ -36,9 +40,10 @@ struct Scene
   /// Declare the entries of the models that this scene chose, parse strictly, derive and cross-check. `Dimension` is dim.
   explicit Scene(Parameters &);
 
-  std::string    title, kinematics = "small strain";
-  const Symmetry symmetry;
-  double         end_time = std::numeric_limits<double>::quiet_NaN();
+  std::string      title;
+  KinematicsChoice kinematics;
+  const Symmetry   symmetry;
+  double           end_time = std::numeric_limits<double>::quiet_NaN();
 
   MeshChoice<dim>                           mesh;
   ElementChoice                             element;

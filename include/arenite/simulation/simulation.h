@@ -35,15 +35,19 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  void   check_blocks() const;
-  void   set_initial_state();
-  void   march(const OutputDirectory &);
-  void   describe() const;
-  bool   adapt(double dt);
-  void   observe(const OutputDirectory &, double dt, bool last);
-  void   watch(const EnergyReport &);
-  void   write_picture(const OutputDirectory &);
-  double core_seconds(Clock::time_point since) const;
+  void                                check_blocks() const;
+  void                                set_initial_state();
+  std::unique_ptr<InternalForce<dim>> make_block(Block &) const;
+  void                                march(const OutputDirectory &);
+  void                                describe() const;
+  void                                reinit_receivers();
+  bool                                adapt(double dt);
+  void                                observe(const OutputDirectory &, double dt, bool last);
+  void                                watch(const EnergyReport &);
+  void                                watch(const PointLimits<dim> &) const;
+  void                                describe_shocks() const;
+  void                                write_picture(const OutputDirectory &);
+  double                              core_seconds(Clock::time_point since) const;
 
   MaterialOfBlock material_of_block() const;
 

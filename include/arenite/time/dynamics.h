@@ -17,6 +17,17 @@ struct Conserved
   double                 momentum_scale = 0.; ///< sum of m |v_c| over nodes and components [kg m/s]
 };
 
+/// What the points of all blocks say about the last step, over all processes.
+template <int dim>
+struct PointLimits
+{
+  double stable_step = 0.;    ///< [s]
+  double volume_rate = 0.;    ///< largest |tr D| [1/s]
+  double substeps    = 1.;    ///< most parts into which a law divided the step
+  bool   failed      = false; ///< some point is inverted or not finite
+  int    failed_rank = -1;
+};
+
 /// The semi-discrete equations M a = f_int(u) + f_loads(u, v, t) of one mesh, and one step through them:
 ///
 ///   dynamics.compute_force(state);      // f_n: internal forces and loads
@@ -58,6 +69,17 @@ public:
 
   /// v_n = v_{n-1/2} + dt_{n-1}/2 M^-1 f_n with ghosts and hanging nodes, between close_force() and advance().
   VectorType velocity(const State<dim> &) const;
+
+  /// Whether some block stores stress and history.
+  bool stores_points() const;
+
+  /// Of the step that led to the present forces. Collective.
+  PointLimits<dim> point_limits(const State<dim> &) const;
+
+  /// InternalForce::point_values() of the block of an owned cell, in the order of the names of all blocks, zero for what a block does
+  /// not have; false where the stress follows from the displacement.
+  bool                     point_values(const State<dim> &, unsigned int cell, std::vector<double> &values) const;
+  std::vector<std::string> names_of_point_values() const;
 
   /// Total mass of the modelled sector [kg].
   double total_mass() const;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <arenite/mechanics/internal_force.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <string>
@@ -10,13 +12,18 @@ namespace Arenite
 /// Where energy came from and went to, up to t_n [J], summed over processes.
 struct EnergyReport
 {
-  double                                      time = 0., kinetic = 0., strain = 0., hourglass = 0.;
-  double                                      initial = 0.; ///< kinetic + strain at the start
+  double time = 0., kinetic = 0., strain = 0., hourglass = 0.;
+  double dissipated = 0., bulk_viscosity = 0., volume_change = 0.; ///< of blocks that store points, see BlockEnergy
+  bool   stores_points = false;                                    ///< there are such blocks
+  double initial       = 0.;                                       ///< kinetic + strain at the start
   std::vector<std::pair<std::string, double>> work; ///< by load and by prescribed motion, positive into the body
   double                                      step_changes = 0., adaptation = 0.;
 
   /// Two independent ledgers: what loads gave must be what points and nodes hold.
   double imbalance() const;
+
+  /// All that the points of the body hold and have turned into heat.
+  double internal() const { return strain + hourglass + dissipated + bulk_viscosity + volume_change; }
   double scale() const; ///< max(total energy, |external work|)
 };
 
@@ -39,7 +46,7 @@ public:
   void set_initial(const double energy) { initial = energy; }
 
   /// Reduce over processes; the largest relative imbalance so far is kept. Collective.
-  EnergyReport report(double time, double kinetic, double strain, double hourglass, MPI_Comm);
+  EnergyReport report(double time, double kinetic, const BlockEnergy &, MPI_Comm);
   double       largest_error() const;
 
 private:

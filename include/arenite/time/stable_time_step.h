@@ -2,6 +2,8 @@
 
 #include <arenite/time/dynamics.h>
 
+#include <algorithm>
+
 namespace Arenite
 {
 /// Courant limit dt < 2/omega_max of the central difference, omega_max^2 the largest eigenvalue of M^-1 K.
@@ -31,13 +33,20 @@ public:
   void update(Dynamics<dim> &);
 
   /// Largest step of the present mesh, 2/omega_max, without the Courant number [s].
-  double limit() const { return critical_step; }
+  double limit() const { return follows_points ? std::min(elastic_step, step_of_points) : critical_step; }
 
   /// The same from the elements alone: never above the true limit.
   double element_limit() const { return element_step; }
 
-  /// Step to use: divides the time that is left into equal parts, so that the end is hit without a small last step.
-  double next(double time, double end_time) const;
+  /// Blocks that store points say after every step how long the next one may be [s].
+  void follow(const double point_step) { step_of_points = point_step; }
+
+  /// Step to use: divides the time that is left into equal parts, so that the end is hit without a small last step. Where it follows
+  /// the points, it grows from the last one, @p dt_last, by a limited factor.
+  double next(double time, double end_time, double dt_last = 0.) const;
+
+  /// The step of most of the run, as far as the present state knows it.
+  double usual() const;
 
   /// Centre of the cell that limits the step.
   dealii::Point<dim> limiting_place() const { return place; }
@@ -46,10 +55,12 @@ public:
   dealii::Vector<double> ratio;
 
 private:
-  double element_bound(const Dynamics<dim> &);
+  double element_bound(const Dynamics<dim> &, bool without_points = false);
   double assembled_bound(Dynamics<dim> &, double elements);
 
-  double courant = 0.9, fixed = 0., largest = 0.;
+  double courant = 0.9, fixed = 0., largest = 0., first = 0., growth = 1.1;
+  bool   follows_points = false;
+  double step_of_points = 0., elastic_step = 0.; ///< of blocks with and without points, if there are some with
   double critical_step = 0., element_step = 0.;
   double rate_ratio = 1.; ///< omega_max over that of the elements on the last mesh, where the next search starts
   dealii::Point<dim> place;

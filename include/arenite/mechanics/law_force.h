@@ -1,0 +1,641 @@
+#pragma once
+
+#include <arenite/materials/batch_law.h>
+#include <arenite/mechanics/cell_batches.h>
+#include <arenite/mechanics/internal_force.h>
+#include <arenite/mechanics/point_motion.h>
+#include <arenite/mechanics/point_operators.h>
+
+#include <cmath>
+
+namespace Arenite
+{
+/// Largest change of volume in one step; the next step is shortened when the present rate would exceed it.
+constexpr double largest_volume_change = 0.02;
+
+/// Forces of a block whose law has memory, or whose strains are finite. The stress of a step comes from the increment of the displacement
+/// since the last one:
+///
+///   gather -> gradients (PointOperators) -> strain increment and rotation (PointMotion) -> law, once per batch -> q -> P -> scatter
+///
+/// sigma = law - q I;  P = J sigma F^-T at finite strain, sigma at small strain. Bulk viscosity (von Neumann & Richtmyer; Landshoff)
+///
+///   q = rho l (b2^2 l |D| + b1 c) |D|   in compression (D = tr d < 0);   q = - rho l b1 c D in expansion where that is wanted
+///
+/// with the length l of a cell, over its degree, in the direction of straining: l = |d|/|d A^T|, A = d xi/d x; uniaxial straining of a
+/// brick finds its side. The work -(q_n J_n + q J)/2 tr(d eps) per reference volume is what the nodal forces of q take out of the motion;
+/// the law receives it as heat.
+///
+/// Step: an element alone is stable up to dt with g (c^2 dt^2/4 + nu dt/2) = 1 for a viscosity nu (StableTimeStep has the reason): g =
+/// r |A|^2 with the ratio r between the largest eigenvalue of the element's M^-1 K and c^2 |A|^2, from power iterations on the first
+/// mesh with the elasticity at rest and as a fluid. Per cell c^2 |A|^2 is predicted to grow as it did in the last step, at most fourfold.
+template <typename Element, int W>
+class LawForce : public InternalForce<Element::dim>
+{
+public:
+  static constexpr int dim = Element::dim, n_nodes = Element::n_nodes, n_hoop = Element::n_hoop;
+  using Number                  = Lanes<W>;
+  using Operators               = PointOperators<Element, Number>;
+  using Motion                  = PointMotion<dim, n_hoop, Number>;
+  static constexpr int n_points = Operators::n_points;
+
+  LawForce(const ElementChoice &element, const KinematicsChoice &kinematics, std::unique_ptr<const BatchLaw> law,
+           const LinearElastic &at_rest, const dealii::types::material_id block, const Symmetry symmetry)
+    : element(element)
+    , kinematics(kinematics)
+    , law(std::move(law))
+    , block(block)
+    , finite(kinematics.finite_strain())
+    , polar(kinematics.polar())
+    , viscous_hourglass(element.hourglass_control == "viscous")
+    , n_history(static_cast<unsigned int>(this->law->history_names().size()))
+    , elastic(make_elastic_force<dim, W>(element, at_rest, block, symmetry))
+  {
+    LinearElastic fluid = at_rest;
+    fluid.bulk_modulus += 4. / 3. * fluid.shear_modulus;
+    fluid.shear_modulus = 0.;
+    as_fluid            = make_elastic_force<dim, W>(element, fluid, block, symmetry);
+  }
+
+  void reinit(const Discretization<dim> &discretization) override
+  {
+    positions = &discretization.positions;
+    batches.reinit(discretization, block);
+    elastic->reinit(discretization);
+    as_fluid->reinit(discretization);
+    place_of_cell.assign(discretization.cells().size(), dealii::numbers::invalid_unsigned_int);
+    for (unsigned int place = 0; place < batches.cells.size(); ++place)
+      if (batches.cells[place] != dealii::numbers::invalid_unsigned_int)
+        place_of_cell[batches.cells[place]] = place;
+    find_ratios(discretization);
+  }
+
+  bool stores_points() const override { return true; }
+
+  void reinit_state(BlockState &record) const override
+  {
+    PointData        &points = record.points;
+    const std::size_t n      = std::size_t(batches.size()) * n_points * W;
+    points                   = PointData();
+    points.stores_points     = true;
+    points.stress.resize(6 * n, 0.);
+    points.history.resize(n_history * n, 0.);
+    points.bulk_viscosity.resize(n, 0.);
+    points.wave_speed.resize(n, 0.);
+    points.stored.resize(n, 0.);
+    points.frequency.resize(batches.size() * W, 0.);
+    const std::vector<double> start = law->initial_history();
+    for (std::size_t point = 0; point < n / W; ++point)
+      for (unsigned int h = 0; h < n_history; ++h)
+        for (int l = 0; l < W; ++l)
+          points.history[(point * n_history + h) * W + l] = start[h];
+    if constexpr (Element::has_hourglass_control)
+      {
+        record.amplitude.resize(std::size_t(batches.size()) * n_amplitudes * W, 0.);
+        points.hourglass.resize(batches.size() * W, 0.);
+      }
+  }
+
+  void add(VectorType &force, const State<dim> &state, const CellPart part, BlockState &record) const override
+  {
+    if (!record.points.stores_points)
+      {
+        elastic->add(force, state, part, record);
+        return;
+      }
+    const auto p = static_cast<unsigned int>(part);
+    for (unsigned int batch = batches.part_begin[p]; batch < batches.part_begin[p + 1]; ++batch)
+      {
+        Number    x[dim][n_nodes], u[dim][n_nodes], H[n_points][dim][dim], h[n_points];
+        Increment step;
+        gather<dim, W, n_nodes>(positions->begin(), entries(batch), x);
+        gather<dim, W, n_nodes>(state.displacement.begin(), entries(batch), u);
+        const Operators operators(x);
+        if (record.points.advances)
+          {
+            gather<dim, W, n_nodes>(state.last_displacement.begin(), entries(batch), step.u);
+            for (int c = 0; c < dim; ++c)
+              for (int n = 0; n < n_nodes; ++n)
+                step.u[c][n] = u[c][n] - step.u[c][n];
+            operators.gradients(step.u, step.H, step.h);
+          }
+        operators.gradients(u, H, h);
+        if (record.points.advances)
+          advance(batch, operators, u, H, h, step, state.dt_last, record);
+        integrate(batch, operators, H, h, record, u);
+        scatter_add<dim, W, n_nodes>(force.begin(), entries(batch), u, batches.active[batch]);
+      }
+  }
+
+  BlockEnergy energy(const State<dim> &, const BlockState &record) const override
+  {
+    const PointData &points = record.points;
+    BlockEnergy      total;
+    total.strain         = points.stored_energy;
+    total.hourglass      = points.hourglass_work;
+    total.dissipated     = points.dissipated;
+    total.bulk_viscosity = points.viscous_work;
+    total.volume_change  = points.volume_change;
+    return total;
+  }
+
+  void add_mass(VectorType &mass) const override { elastic->add_mass(mass); }
+  void inverse_size_squared(dealii::Vector<double> &per_cell) const override
+  {
+    elastic->inverse_size_squared(per_cell);
+  }
+  void largest_eigenvalue(dealii::Vector<double> &per_cell) const override { elastic->largest_eigenvalue(per_cell); }
+
+  const LinearElastic &material() const override { return elastic->material(); }
+
+  std::string description() const override
+  {
+    const unsigned int n = 6 + n_history + 3;
+    return this->kinematics.kinematics + (finite ? ", " + this->kinematics.rate + " rate" : "") + ", " +
+           std::to_string(8 * n) + " B/point, " + std::to_string(n_points) + (n_points == 1 ? " point" : " points") +
+           " per cell, " + std::to_string(W) + (W == 1 ? " lane" : " lanes");
+  }
+
+  std::vector<std::string> names_of_point_values() const override
+  {
+    std::vector<std::string> names{"density [kg/m^3]", "bulk viscosity [Pa]", "wave speed [m/s]"};
+    for (const std::string &name : law->history_names())
+      names.push_back(name);
+    return names;
+  }
+
+  bool point_values(const State<dim> &state, const BlockState &record, const unsigned int cell,
+                    std::vector<double> &values) const override
+  {
+    if (place_of_cell[cell] == dealii::numbers::invalid_unsigned_int)
+      return false;
+    const unsigned int place = place_of_cell[cell], batch = place / W, lane_of_cell = place % W;
+    const unsigned int n_values = 9 + n_history;
+    const PointData   &points   = record.points;
+    Number             x[dim][n_nodes], u[dim][n_nodes], H[n_points][dim][dim], h[n_points];
+    gather<dim, W, n_nodes>(positions->begin(), entries(batch), x);
+    gather<dim, W, n_nodes>(state.displacement.begin(), entries(batch), u);
+    const Operators operators(x);
+    operators.gradients(u, H, h);
+    std::vector<double> at_points(n_points * n_values);
+    for (int q = 0; q < n_points; ++q)
+      {
+        double           *v     = &at_points[q * n_values];
+        const std::size_t point = std::size_t(batch) * n_points + q;
+        const auto at = [&](const dealii::AlignedVector<double> &array, const unsigned int k, const unsigned int n) {
+          return array[(point * n + k) * W + lane_of_cell];
+        };
+        Number zero[dim][dim] = {};
+        Motion motion;
+        move(H[q], zero, h[q], Number(0.), motion);
+        const double viscosity = at(points.bulk_viscosity, 0, 1);
+        for (int k = 0; k < 6; ++k)
+          v[k] = at(points.stress, k, 6) - (k < 3 ? viscosity : 0.);
+        v[6] = law->density() / lane(motion.J, lane_of_cell);
+        v[7] = viscosity;
+        v[8] = at(points.wave_speed, 0, 1);
+        for (unsigned int k = 0; k < n_history; ++k)
+          v[9 + k] = at(points.history, k, n_history);
+      }
+    points_to_nodes(at_points, n_values, values);
+    return true;
+  }
+
+private:
+  static constexpr int n_amplitudes = Element::n_patterns * dim; ///< per cell
+  using Amplitudes                  = Number[dim][Element::n_patterns];
+
+  /// Of the displacement over a step.
+  struct Increment
+  {
+    Number u[dim][n_nodes], H[n_points][dim][dim], h[n_points];
+  };
+
+  const unsigned int *entries(const unsigned int batch) const { return &batches.entries[batch * n_nodes * W]; }
+
+  void move(const Number (&H)[dim][dim], const Number (&dH)[dim][dim], const Number &h, const Number &dh,
+            Motion &motion) const
+  {
+    if (finite)
+      motion.finite_strain(H, dH, h, dh, polar);
+    else
+      motion.small_strain(H, dH, h, dh);
+  }
+
+  /// Ratios between the largest eigenvalue of each element and c^2 |A|^2.
+  void find_ratios(const Discretization<dim> &discretization)
+  {
+    dealii::Vector<double> solid(discretization.cells().size()), fluid = solid;
+    elastic->largest_eigenvalue(solid);
+    as_fluid->largest_eigenvalue(fluid);
+    const double c2 = std::pow(material().p_wave_speed(), 2);
+    ratio.resize(batches.size() * W, 0.);
+    for (unsigned int batch = 0; batch < batches.size(); ++batch)
+      {
+        Number x[dim][n_nodes], largest = Number(0.);
+        gather<dim, W, n_nodes>(positions->begin(), entries(batch), x);
+        const Operators operators(x);
+        for (int q = 0; q < n_points; ++q)
+          largest = Arenite::max<Number>(largest, square_norm(operators.metric[q]));
+        for (int l = 0; l < batches.active[batch]; ++l)
+          {
+            const unsigned int cell = batches.cells[batch * W + l];
+            // power iterations end up to 1 % below, and cells change their shape
+            ratio[batch * W + l] = 1.03 * std::max(solid[cell], fluid[cell]) / (c2 * lane(largest, l));
+          }
+      }
+  }
+
+  static ARENITE_INLINE Number square_norm(const Number (&a)[dim][dim])
+  {
+    Number sum = Number(0.);
+    for (int k = 0; k < dim; ++k)
+      for (int j = 0; j < dim; ++j)
+        sum += a[k][j] * a[k][j];
+    return sum;
+  }
+
+  /// A = d xi/d x on the present shape.
+  ARENITE_INLINE void present_metric(const Number (&metric)[dim][dim], const Number (&H)[dim][dim],
+                                     Number (&A)[dim][dim]) const
+  {
+    if (!finite)
+      {
+        for (int k = 0; k < dim; ++k)
+          for (int j = 0; j < dim; ++j)
+            A[k][j] = metric[k][j];
+        return;
+      }
+    Number F[dim][dim], C[dim][dim];
+    deformation(H, F);
+    const Number inverse = Number(1.) / cofactors(F, C);
+    for (int k = 0; k < dim; ++k)
+      for (int j = 0; j < dim; ++j)
+        {
+          Number sum = metric[k][0] * C[j][0]; // F^-1_Jj = C_jJ/det
+          for (int i = 1; i < dim; ++i)
+            sum += metric[k][i] * C[j][i];
+          A[k][j] = sum * inverse;
+        }
+  }
+  static ARENITE_INLINE void deformation(const Number (&H)[dim][dim], Number (&F)[dim][dim])
+  {
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        F[i][j] = H[i][j] + Number(i == j ? 1. : 0.);
+  }
+
+  /// The points of a batch go to the end of the step: stress, history, q, and the sums over the block.
+  void advance(const unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
+               const Number (&H)[n_points][dim][dim], const Number (&h)[n_points], const Increment &step,
+               const double dt_last, BlockState &record) const
+  {
+    PointData   &points = record.points;
+    const double dt =
+      dt_last > 0. ? dt_last : std::numeric_limits<double>::min(); // at rest: energy and wave speed only
+    const std::size_t first = std::size_t(batch) * n_points;
+    Motion            motion[n_points];
+    for (int q = 0; q < n_points; ++q)
+      move(H[q], step.H[q], h[q], step.h[q], motion[q]);
+    if constexpr (Element::mean_dilatation)
+      take_mean_volumes(operators, motion);
+
+    // kinematics, viscosity
+    Number strain[n_points][6], density_old[n_points], density[n_points], heat[n_points], stored_old[n_points],
+      dissipated[n_points], viscous_work[n_points];
+    const double rho_0 = law->density(), b1 = element.linear_viscosity, b2 = element.quadratic_viscosity;
+    Number       largest_rate = Number(0.), viscosity[n_points];
+    for (int q = 0; q < n_points; ++q)
+      {
+        const std::size_t at = (first + q) * W;
+        const Motion     &m  = motion[q];
+        const Number      J  = Arenite::max<Number>(m.J, Number(1e-9)), // inverted points are reported below
+          J_old = Arenite::max<Number>(m.J_old, Number(1e-9)), volume_strain = trace(m.strain),
+                     D = volume_strain * Number(1. / dt);
+        for (int k = 0; k < 6; ++k)
+          strain[q][k] = m.strain[k];
+        density[q]     = Number(rho_0) / J;
+        density_old[q] = Number(rho_0) / J_old;
+        largest_rate   = Arenite::max<Number>(largest_rate, Arenite::absolute<Number>(D));
+
+        const Number q_old = load<Number>(&points.bulk_viscosity[at]);
+        Number       q_new = Number(0.);
+        viscosity[q]       = Number(0.);
+        if ((b1 > 0. || b2 > 0.) && dt_last > 0.)
+          {
+            const Number c = load<Number>(&points.wave_speed[at]), l = length_of(operators.metric[q], H[q], m.strain);
+            const auto   compression = D < Number(0.);
+            const Number linear = density[q] * l * Number(b1) * c, quadratic = density[q] * Number(b2 * b2) * l * l;
+            q_new = Arenite::select<Number>(compression, Number((quadratic * -D + linear) * -D),
+                                            Number(Number(element.viscosity_in_expansion ? -1. : 0.) * linear * D));
+            viscosity[q] =
+              (linear + Arenite::select<Number>(compression, Number(Number(-2.) * quadratic * D), Number(0.))) /
+              density[q];
+          }
+        store<Number>(q_new, &points.bulk_viscosity[at]);
+        viscous_work[q] =
+          Number(-0.5) * volume_strain * (finite ? Number(q_old * J_old + q_new * J) : Number(q_old + q_new));
+        heat[q]       = viscous_work[q] * Number(1. / rho_0);
+        stored_old[q] = load<Number>(&points.stored[at]);
+        if (finite)
+          {
+            m.turn(&points.stress[6 * at]);
+            if (law->tensor_history() >= 0)
+              m.turn(&points.history[n_history * at + law->tensor_history() * W]);
+          }
+      }
+
+    PointBatch law_batch;
+    law_batch.n_points    = n_points;
+    law_batch.dt          = dt;
+    law_batch.strain      = reinterpret_cast<const double *>(strain);
+    law_batch.density_old = reinterpret_cast<const double *>(density_old);
+    law_batch.density     = reinterpret_cast<const double *>(density);
+    law_batch.heat        = reinterpret_cast<const double *>(heat);
+    law_batch.stress      = &points.stress[6 * first * W];
+    law_batch.history     = n_history > 0 ? &points.history[n_history * first * W] : nullptr;
+    law_batch.wave_speed  = &points.wave_speed[first * W];
+    law_batch.stored      = &points.stored[first * W];
+    law_batch.dissipated  = reinterpret_cast<double *>(dissipated);
+    law->update(law_batch);
+    points.substeps = std::max(points.substeps, law_batch.substeps);
+
+    // energies, the step
+    const bool   per_present_volume = law->energy_per_present_volume();
+    Number       energy = Number(0.), loss = Number(0.), viscous = Number(0.), volume_change = Number(0.);
+    Number       frequency = Number(0.), inverse_step = Number(0.);
+    const Number shape = load<Number>(&ratio[batch * W]);
+    for (int q = 0; q < n_points; ++q)
+      {
+        const std::size_t at = (first + q) * W;
+        const Number      w = operators.weight[q], J = motion[q].J, J_old = motion[q].J_old,
+                     stored = load<Number>(&points.stored[at]), c = load<Number>(&points.wave_speed[at]);
+        const bool with_volume = finite || !per_present_volume;
+        energy += w * (with_volume ? Number(J * stored) : stored);
+        loss += w * (with_volume ? Number(Number(0.5) * (J + J_old) * dissipated[q]) : dissipated[q]);
+        viscous += w * viscous_work[q];
+        if (finite && per_present_volume)
+          volume_change -= w * Number(0.5) * (stored_old[q] + stored) * (J - J_old);
+
+        Number A[dim][dim];
+        present_metric(operators.metric[q], H[q], A);
+        const Number g = shape * square_norm(A), nu = viscosity[q] + Number(law->viscosity_time()) * c * c,
+                     f = g * c * c;
+        frequency      = Arenite::max<Number>(frequency, f);
+        // 1/dt = g (nu + sqrt(nu^2 + 4 c^2/g))/4
+        inverse_step =
+          Arenite::max<Number>(inverse_step,
+                               Number(Number(0.25) * (g * nu + square_root(Number(g * nu * g * nu + Number(4.) * f)))));
+        const Number sum  = law_sum(&points.stress[6 * at]) + c + stored;
+        const auto   good = J > Number(0.) && sum - sum == Number(0.);
+        if (any_of(!good))
+          for (int l = 0; l < batches.active[batch]; ++l)
+            if (!mask_lane(good, l) && batches.cells[batch * W + l] < points.failed_cell)
+              {
+                points.failed_cell  = batches.cells[batch * W + l];
+                points.failed_point = q;
+              }
+      }
+    const Number last = load<Number>(&points.frequency[batch * W]);
+    const Number growth =
+      Arenite::select<Number>(last > Number(0.), Arenite::min<Number>(frequency / last, Number(4.)), Number(1.));
+    inverse_step *= square_root(Arenite::max<Number>(growth, Number(1.)));
+    store<Number>(frequency, &points.frequency[batch * W]);
+    inverse_step     = Arenite::max<Number>(inverse_step, Number(largest_rate * Number(1. / largest_volume_change)));
+    Number hourglass = Number(0.);
+    if constexpr (Element::has_hourglass_control)
+      hourglass = advance_hourglass(batch, operators, u, H, step, dt, record);
+    (void)u;
+    for (int l = 0; l < batches.active[batch]; ++l)
+      {
+        points.stored_energy += lane(energy, l);
+        points.dissipated += lane(loss, l);
+        points.viscous_work += lane(viscous, l);
+        points.volume_change += lane(volume_change, l);
+        points.hourglass_work += lane(hourglass, l);
+        points.volume_rate  = std::max(points.volume_rate, lane(largest_rate, l));
+        const double stable = 1. / lane(inverse_step, l);
+        if (stable < points.stable_step)
+          {
+            points.stable_step   = stable;
+            points.limiting_cell = batches.cells[batch * W + l];
+          }
+      }
+  }
+
+  static ARENITE_INLINE Number law_sum(const double *stress)
+  {
+    Number sum = Number(0.);
+    for (int k = 0; k < 6; ++k)
+      sum += load<Number>(stress + k * W);
+    return sum;
+  }
+
+  /// Length of the cell, over its degree, in the direction of straining.
+  ARENITE_INLINE Number length_of(const Number (&metric)[dim][dim], const Number (&H)[dim][dim],
+                                  const SymTensor<Number> &strain) const
+  {
+    Number A[dim][dim];
+    present_metric(metric, H, A);
+    // without any strain the direction does not matter
+    Number straining = Number(1e-200), across = Number(1e-200) * square_norm(A);
+    for (int k = 0; k < dim; ++k)
+      for (int j = 0; j < dim; ++j)
+        {
+          const Number d   = strain[Motion::index(k, j)];
+          Number       sum = A[k][0] * strain[Motion::index(0, j)];
+          for (int i = 1; i < dim; ++i)
+            sum += A[k][i] * strain[Motion::index(i, j)];
+          straining += d * d;
+          across += sum * sum;
+        }
+    return Number(Operators::length_of_unit) * square_root(Number(straining / across));
+  }
+
+  /// Mean dilatation: every point has the change of volume of the cell.
+  void take_mean_volumes(const Operators &operators, Motion (&motion)[n_points]) const
+  {
+    Number volume = Number(0.), J = Number(0.), J_old = Number(0.);
+    for (int q = 0; q < n_points; ++q)
+      {
+        volume += operators.weight[q];
+        J += operators.weight[q] * motion[q].J;
+        J_old += operators.weight[q] * motion[q].J_old;
+      }
+    for (int q = 0; q < n_points; ++q)
+      motion[q].set_volume(J_old / volume, J / volume, finite);
+  }
+
+  /// Forces on the patterns at the end of the step. Stiffness: k = coefficient rho_0 c^2 s, with s the part of the elastic deviatoric
+  /// stress that the point carries, |s|/(2 G |e|), so that soil that flows is not held by its hourglass control; at least a hundredth.
+  /// @return work of the step
+  Number advance_hourglass(const unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
+                           const Number (&H)[n_points][dim][dim], const Increment &step, const double dt,
+                           BlockState &record) const
+  {
+    PointData   &points = record.points;
+    Amplitudes   q, dq;
+    const Number c = load<Number>(&points.wave_speed[batch * W]);
+    operators.patterns(u, H, q);
+    operators.patterns(step.u, step.H, dq);
+    const double coefficient = element.hourglass_coefficient * law->density();
+    const Number scale =
+      viscous_hourglass ? Number(coefficient) * c * operators.pattern_viscosity() * Number(1. / dt)
+                        : Number(coefficient) * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, points);
+    Number work = Number(0.);
+    for (int i = 0; i < dim; ++i)
+      for (int a = 0; a < Element::n_patterns; ++a)
+        {
+          double *stored     = &record.amplitude[(std::size_t(batch) * n_amplitudes + i * Element::n_patterns + a) * W];
+          const Number force = scale * (viscous_hourglass ? dq[i][a] : q[i][a]);
+          work += Number(0.5) * (load<Number>(stored) + force) * dq[i][a];
+          store<Number>(force, stored);
+        }
+    store<Number>(load<Number>(&points.hourglass[batch * W]) + work, &points.hourglass[batch * W]);
+    return work;
+  }
+
+  ARENITE_INLINE Number secant_ratio(const unsigned int batch, const Number (&H)[n_points][dim][dim],
+                                     const PointData   &points) const
+  {
+    const double G = material().shear_modulus;
+    if (G == 0.)
+      return Number(0.01);
+    SymTensor<Number> e, stress;
+    for (int i = 0; i < dim; ++i)
+      for (int j = i; j < dim; ++j)
+        e[Motion::index(i, j)] = Number(0.5) * (H[0][i][j] + H[0][j][i]);
+    for (int k = 0; k < 6; ++k)
+      stress[k] = load<Number>(&points.stress[(std::size_t(batch) * 6 + k) * W]);
+    const auto   s        = deviator(stress);
+    const Number strained = Number(4. * G * G) * second_invariant(deviator(e)), carried = second_invariant(s);
+    return Arenite::select<Number>(
+      strained > Number(1e-20 * G * G),
+      Arenite::min<Number>(Number(1.), Arenite::max<Number>(Number(0.01), square_root(Number(carried / strained)))),
+      Number(1.));
+  }
+
+  /// Nodal forces of the stored stress.
+  void integrate(const unsigned int batch, const Operators     &operators, const Number (&H)[n_points][dim][dim],
+                 const Number (&h)[n_points], const BlockState &record, Number (&f)[dim][n_nodes]) const
+  {
+    const PointData  &points = record.points;
+    const std::size_t first  = std::size_t(batch) * n_points;
+    Number            P[n_points][dim][dim], hoop[n_points];
+    Number            mean_pressure = Number(0.), mean_J = Number(1.);
+    if constexpr (Element::mean_dilatation)
+      find_means(batch, operators, H, h, points, mean_pressure, mean_J);
+    for (int q = 0; q < n_points; ++q)
+      {
+        const std::size_t at  = (first + q) * W;
+        const Number      vis = load<Number>(&points.bulk_viscosity[at]);
+        SymTensor<Number> s;
+        for (int k = 0; k < 6; ++k)
+          s[k] = load<Number>(&points.stress[6 * at + k * W]);
+        if constexpr (!Element::mean_dilatation)
+          s -= spherical(vis);
+        if (!finite)
+          {
+            if constexpr (Element::mean_dilatation)
+              s = deviator(s) - spherical(mean_pressure);
+            for (int i = 0; i < dim; ++i)
+              for (int j = 0; j < dim; ++j)
+                P[q][i][j] = s[Motion::index(i, j)];
+            hoop[q] = s[dim < 3 ? dim : 2];
+            continue;
+          }
+        Number F[dim][dim], C[dim][dim], stretch = Number(1.) + h[q], others = Number(1.); // in the hoop directions
+        deformation(H[q], F);
+        const Number det = cofactors(F, C);
+        for (int i = 0; i < n_hoop; ++i)
+          others *= stretch;
+        if constexpr (Element::mean_dilatation)
+          s = deviator(s) * Number(mean_J / (det * others)) - spherical(mean_pressure);
+        for (int i = 0; i < dim; ++i)
+          for (int j = 0; j < dim; ++j)
+            {
+              Number sum = s[Motion::index(i, 0)] * C[0][j];
+              for (int k = 1; k < dim; ++k)
+                sum += s[Motion::index(i, k)] * C[k][j];
+              P[q][i][j] = sum * others;
+            }
+        if constexpr (n_hoop > 0)
+          hoop[q] = s[dim < 3 ? dim : 2] * det * (n_hoop == 1 ? Number(1.) : stretch);
+      }
+    if constexpr (Element::has_hourglass_control)
+      {
+        Amplitudes Q;
+        for (int k = 0; k < n_amplitudes; ++k)
+          Q[k / Element::n_patterns][k % Element::n_patterns] =
+            load<Number>(&record.amplitude[(std::size_t(batch) * n_amplitudes + k) * W]);
+        operators.forces(P, hoop, Q, f);
+      }
+    else if constexpr (n_points == 1)
+      {
+        const Amplitudes none = {};
+        operators.forces(P, hoop, none, f);
+      }
+    else
+      operators.forces(P, hoop, f);
+    (void)h, (void)mean_pressure, (void)mean_J;
+  }
+
+  /// Mean of p + q and of J over the cell, with the weights of the reference volume: what works on the change of its volume.
+  void find_means(const unsigned int batch, const Operators    &operators, const Number (&H)[n_points][dim][dim],
+                  const Number (&h)[n_points], const PointData &points, Number &mean_pressure, Number &mean_J) const
+  {
+    Number volume = Number(0.);
+    mean_J        = Number(0.);
+    for (int q = 0; q < n_points; ++q)
+      {
+        const std::size_t at = (std::size_t(batch) * n_points + q) * W;
+        SymTensor<Number> s;
+        for (int k = 0; k < 3; ++k)
+          s[k] = load<Number>(&points.stress[6 * at + k * W]);
+        Number F[dim][dim], C[dim][dim];
+        deformation(H[q], F);
+        Number J = cofactors(F, C);
+        for (int i = 0; i < n_hoop; ++i)
+          J *= Number(1.) + h[q];
+        volume += operators.weight[q];
+        mean_J += operators.weight[q] * J;
+        mean_pressure += operators.weight[q] * (pressure(s) + load<Number>(&points.bulk_viscosity[at]));
+      }
+    mean_pressure *= Number(1.) / volume;
+    mean_J *= Number(1.) / volume;
+    (void)h;
+  }
+
+  /// Values at the nodes of the polynomial through the points: the points themselves, a constant, or the multilinear one through 2^dim
+  /// Gauss points.
+  static void points_to_nodes(const std::vector<double> &at_points, const unsigned int n_values,
+                              std::vector<double> &values)
+  {
+    values.assign(n_nodes * n_values, 0.);
+    for (int n = 0; n < n_nodes; ++n)
+      for (int q = 0; q < n_points; ++q)
+        {
+          double factor = 1.;
+          if constexpr (n_points == n_nodes && Element::has_gauss_points)
+            for (int b = 1; b < n_nodes; b *= 2) // node at 1, points at 1/sqrt(3)
+              factor *= 0.5 * (1. + ((n & b) == (q & b) ? 1.7320508075688772935 : -1.7320508075688772935));
+          else if constexpr (n_points == n_nodes)
+            factor = n == q ? 1. : 0.;
+          for (unsigned int k = 0; factor != 0. && k < n_values; ++k)
+            values[n * n_values + k] += factor * at_points[q * n_values + k];
+        }
+  }
+
+  const ElementChoice                 element;
+  const KinematicsChoice              kinematics;
+  std::unique_ptr<const BatchLaw>     law;
+  const dealii::types::material_id    block;
+  const bool                          finite, polar, viscous_hourglass;
+  const unsigned int                  n_history;
+  std::unique_ptr<InternalForce<dim>> elastic, as_fluid; ///< for mass, eigenvalues and forces without points
+  const VectorType                   *positions = nullptr;
+  CellBatches<dim, W>                 batches;
+  std::vector<unsigned int>           place_of_cell; ///< batch W + lane of a cell of the block
+  dealii::AlignedVector<double>       ratio;         ///< [batch][lane], r of the largest eigenvalue
+};
+} // namespace Arenite
