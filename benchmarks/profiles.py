@@ -1,28 +1,25 @@
 """Profiles of waves along a line: what a study asks receivers for, what it reads back, and their errors.
 
-    settings = profiles.along(cells, upper=0.15, interval=9e-6)        # receivers at the middle of every cell of a line along x
+    settings = profiles.along("surface", cells, upper=0.15, interval=9e-6)   # the receivers 'surface' to the middle of every cell along x
     run      = study.run("plates.prm", {**settings, ...})
-    profile  = profiles.read(run)                                      # profile.X, .x, .v, .S, .p, .rho at the last row
+    profile  = profiles.read(run, "surface")                                 # profile.X, .x, .v, .S, .p, .rho at the last row
     error    = profile.l1(profile.v, exact_v)                          # relative, weighted with the volume
 """
 import math
 import numpy
 
-NAME = "profile"
-
-
-def along(cells, upper, lower=0., interval=None, parts=1, quantities="displacement, velocity, stress, density", direction="1, 0, 0"):
-    """Settings of receivers in the middle of `parts` parts of each of the equal cells, at the name 'profile'."""
+def along(name, cells, upper, lower=0., interval=None, parts=1, quantities="displacement, velocity, stress, density", direction="1, 0, 0"):
+    """Settings that move the receivers `name` of a scene to the middle of `parts` parts of each of the equal cells."""
     places = lower + (numpy.arange(cells * parts) + .5) * (upper - lower) / (cells * parts)
-    return at(places, interval, quantities, direction)
+    return at(name, places, interval, quantities, direction)
 
 
-def at(places, interval=None, quantities="displacement, velocity, stress, density", direction="1, 0, 0"):
+def at(name, places, interval=None, quantities="displacement, velocity, stress, density", direction="1, 0, 0"):
     """The same at given distances from the origin."""
-    settings = {f"Receivers/{NAME}/Directions": direction, f"Receivers/{NAME}/Radii": ", ".join(f"{x:.9g}" for x in places),
-                f"Receivers/{NAME}/Quantities": quantities}
+    settings = {f"Receivers/{name}/Points": "", f"Receivers/{name}/Directions": direction,
+                f"Receivers/{name}/Radii": ", ".join(f"{x:.9g}" for x in places), f"Receivers/{name}/Quantities": quantities}
     if interval:
-        settings[f"Receivers/{NAME}/Interval"] = interval
+        settings[f"Receivers/{name}/Interval"] = interval
     return settings
 
 
@@ -63,10 +60,10 @@ class Profile:
         return float(places[i] + (values[i] - level) / (values[i] - values[i + 1]) * (places[i + 1] - places[i]))
 
 
-def read(run, row=-1, rest=None, power=0):
+def read(run, name, row=-1, rest=None, power=0):
     """The profile of one row. rest: density of points without a column of it."""
-    table = run.table(f"receivers-{NAME}.csv")
-    with open(run.directory / f"receivers-{NAME}-points.csv") as stream:
+    table = run.table(f"receivers-{name}.csv")
+    with open(run.directory / f"receivers-{name}-points.csv") as stream:
         points = [line.split(",") for line in stream.read().splitlines()[1:]]
     names, places = [p[0].strip() for p in points], numpy.array([[float(x) for x in p[1:4]] for p in points])
     X = numpy.sqrt((places ** 2).sum(axis=1))

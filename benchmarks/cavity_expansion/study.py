@@ -25,9 +25,8 @@ def expand(name, V, element, cells, growth):
     end = (growth - 1) * FIRST / V
     age = growth * FIRST / V  # of a cavity that began from nothing and has this radius now
     mesh, middles = layers(FIRST, FIRST + 1.05 * solid.ce * end, cells)
-    run = study.run(SCENES[name], {**ELEMENTS[element], **mesh, "End time": end, "Constraints/cavity/Amplitude": V, "Receivers": profiles.NAME,
-                                   **profiles.at(middles[middles < 1.3 * exact.boundary * age], interval=end)}, repeat=1)
-    profile = profiles.read(run, power=2)
+    run = study.run(SCENES[name], {**ELEMENTS[element], **mesh, "End time": end, "Constraints/cavity/Amplitude": V, **profiles.at("wall", middles[middles < 1.3 * exact.boundary * age], interval=end)}, repeat=1)
+    profile = profiles.read(run, "wall", power=2)
     v, S, _, rho = exact.at(profile.x / age)
     plastic = profile.x < .9 * exact.boundary * age
     yields = profile.q - .995 * (solid.Ya + solid.Yb * profile.p)

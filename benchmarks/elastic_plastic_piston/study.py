@@ -8,8 +8,8 @@ from reference import CASES
 
 study = common.Study(__file__)
 SCALE = 1e-3  # strains of 2e-5: the law, in logarithmic strain, is the linear one of the reference up to that
-VISCOSITIES = {"0.06, compression only": (.06, 1.2, "false"), "0.06": (.06, 1.2, "true"), "0.3, compression only": (.3, 1.2, "false"),
-               "0.3": (.3, 1.2, "true")}
+VISCOSITIES = {"0.06, compression only": (.06, 1.2, "false"), "0.06": (.06, 1.2, "true"), "0.1": (.1, 1.2, "true"),
+               "0.3, compression only": (.3, 1.2, "false"), "0.3": (.3, 1.2, "true")}
 ELEMENTS = {name: tuning.ELEMENTS[name] for name in ("Q1, one point", "Q1, 2x2x2", "Q2")}
 
 
@@ -31,11 +31,11 @@ def measure(case, element, viscosity, cells, kinematics="small strain"):
     settings = {**law(piston), **ELEMENTS[element], "Kinematics": kinematics, "Mesh/Upper corner": length, "Mesh/Cells": cells, "End time": end,
                 "Loads/push/Amplitude": piston.loaded.S, "Loads/push/Expression": f"(t < {piston.t1}) ? 1 : 0",
                 "Element/Linear bulk viscosity": linear, "Element/Quadratic bulk viscosity": quadratic,
-                "Element/Bulk viscosity in expansion": expansion, "Receivers": profiles.NAME,
-                **profiles.along(cells, length, interval=end, quantities="displacement, velocity, stress")}
+                "Element/Bulk viscosity in expansion": expansion,
+                **profiles.along("zones", cells, length, interval=end, quantities="displacement, velocity, stress")}
     scene = "piston.prm" if piston.Yb == 0 else "friction.prm"
     run = study.run(scene, settings, repeat=1)
-    profile = profiles.read(run, rest=piston.rho)
+    profile = profiles.read(run, "zones", rest=piston.rho)
     zones = [piston.at(x, end) for x in profile.X]
     fronts = (0., *piston.fronts(end), length)
 
@@ -55,7 +55,7 @@ def measure(case, element, viscosity, cells, kinematics="small strain"):
 
 
 orders = []
-ladder = study.choose((500, 1000, 2000, 4000), quick=(250, 500))
+ladder = study.choose((500, 1000, 2000, 4000, 8000), quick=(250, 500))
 
 
 def converge(case, element, viscosity):

@@ -57,9 +57,8 @@ def measure(case, element, cells, dimension=1, viscosity=(.06, 1.2)):
         settings["Initial conditions/flyer/Velocity"] = f"{V}; {moving}"
     u, (speed, pressure, density, _), behind = waves(flyer, target, V)
     end = .8 * FLYER / behind[0]  # both shocks are still inside of the plates
-    run = study.run("plates.prm", {**settings, "End time": end, "Receivers": f"surface, {profiles.NAME}",
-                                   **profiles.along(cells, LENGTH, interval=end / 2)}, repeat=1)
-    half, late = profiles.read(run, row=-2), profiles.read(run)
+    run = study.run("plates.prm", {**settings, "End time": end, **profiles.along("surface", cells, LENGTH, interval=end / 2)}, repeat=1)
+    half, late = profiles.read(run, "surface", row=-2), profiles.read(run, "surface")
     v, p, rho = exact(flyer, target, V, late.X, late.time)
     front = [one.crossing(numpy.where(one.X > FLYER, one.p, 2 * pressure), pressure / 2) for one in (half, late)]
     plateau = FLYER + .2 * speed * end, FLYER + .7 * speed * end

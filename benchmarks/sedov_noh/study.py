@@ -22,13 +22,13 @@ def mesh(form, size, cells):
     return {"Mesh/Upper corner": ", ".join([str(size)] * dim), "Mesh/Cells": ", ".join([str(cells)] * dim)}
 
 
-def both_lines(scene, form, cells, size, settings):
+def both_lines(scene, receivers, form, cells, size, settings):
     """Runs with receivers along an edge and along the diagonal; the run and its two profiles."""
     result = []
     for direction in ("1, 0, 0", DIAGONAL[form])[:1 if form == "radius" else 2]:
         run = study.run(scene, {**FORMS[form], **mesh(form, size, cells), **settings, "Receivers": profiles.NAME,
                                 **profiles.along(cells, size, interval=settings["End time"], direction=direction)}, repeat=1)
-        result.append(profiles.read(run, power=2))
+        result.append(profiles.read(run, receivers, power=2))
     return run, result
 
 
@@ -38,7 +38,7 @@ def blast(gamma, form, element, cells):
     h = size / cells
     volume = {"radius": 4 * math.pi / 3, "meridian plane": 2 * math.pi, "octant": 8}[form] * h ** 3  # of its images too
     inside = "x" if form == "radius" else ("max(x, y)" if form == "meridian plane" else "max(x, y, z)")
-    run, lines = both_lines("blast.prm", form, cells, size, {
+    run, lines = both_lines("blast.prm", "wall", form, cells, size, {
         **ELEMENTS[element], "End time": end, "Materials/gas/Ratio of specific heats": gamma,
         "Initial conditions/Internal energy": f"({inside} < {h:.9g}) ? {1 / volume:.9g} : 0"})
     R = exact.radius(end)
@@ -64,7 +64,7 @@ def implosion(hoops, form, element, cells):
     if hoops == 1:  # a slice of the cylinder
         settings.update({"Dimension": 2, "Symmetry": "axisymmetric", "Mesh/Upper corner": f"1, {1 / cells}", "Mesh/Cells": f"{cells}, 1",
                          "Constraints/Symmetry planes": "x min, y min, y max", "Initial conditions/gas/Velocity": "-1; 0"})
-    run, lines = both_lines("implosion.prm", form, cells, 1, settings)
+    run, lines = both_lines("implosion.prm", "inside", form, cells, 1, settings)
     line = lines[0]
     line.power = hoops
     v, rho, p = exact.at(line.x, end)

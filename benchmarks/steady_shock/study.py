@@ -24,9 +24,8 @@ def measure(case, element, per_width, travel=TRAVEL, viscosity=(0, 0)):
         **ELEMENTS[element], "Kinematics": "finite strain" if data["finite"] else "small strain", "Mesh/Upper corner": length,
         "Mesh/Cells": cells, "End time": end, "Materials/soil/Fluidity eta": cap.eta, "Materials/soil/Overstress exponent N": cap.N,
         "Element/Linear bulk viscosity": viscosity[0], "Element/Quadratic bulk viscosity": viscosity[1],
-        "Constraints/x min/Amplitude": steady.V, "Constraints/x min/Rise time": ramp, "Receivers": profiles.NAME,
-        **profiles.along(cells, length, parts=degree, interval=end / 2, quantities="displacement, velocity, stress")}, repeat=1)
-    half, late = (profiles.read(run, row=row, rest=cap.rho0) for row in (-2, -1))
+        "Constraints/x min/Amplitude": steady.V, "Constraints/x min/Rise time": ramp, **profiles.along("points", cells, length, parts=degree, interval=end / 2, quantities="displacement, velocity, stress")}, repeat=1)
+    half, late = (profiles.read(run, "points", row=row, rest=cap.rho0) for row in (-2, -1))
     middle = (steady.ahead[2] + steady.V) / 2
     places = [one.crossing(one.v, middle) for one in (half, late)]
     xi = late.X - places[1]
