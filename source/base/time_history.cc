@@ -1,16 +1,15 @@
+#include <arenite/base/formula.h>
 #include <arenite/base/prescan.h>
 #include <arenite/base/registry.h>
 #include <arenite/base/time_history.h>
 
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <iterator>
 #include <limits>
 #include <sstream>
@@ -404,22 +403,15 @@ public:
   {
     if (formula.empty())
       refuse("Expression", "expected a formula in t, for example 'exp(-4000*t)*sin(2*pi*500*t)'.");
-    const MutedErrorStream muted; // deal.II prints what it also throws
-    try
-      {
-        function.initialize("t", formula, {{"pi", dealii::numbers::PI}}, false);
-        function.value(dealii::Point<1>(0.)); // muParser reads the formula at its first use
-      }
-    catch (const dealii::ExceptionBase &exception)
-      {
-        refuse("Expression", reason_of(exception.what()));
-      }
+    const std::string complaint = formulas.read({formula}, "t");
+    if (!complaint.empty())
+      refuse("Expression", complaint);
   }
 
 protected:
   double shape(const double s) const override
   {
-    const double value = function.value(dealii::Point<1>(s));
+    const double value = formulas.value(dealii::Point<1>(s));
     if (!std::isfinite(value))
       refuse("Expression",
              "the formula gives " + std::to_string(value) + " at t = " + std::to_string(s) + " s after the start.");
@@ -435,28 +427,8 @@ protected:
   }
 
 private:
-  std::string               formula;
-  dealii::FunctionParser<1> function;
-
-  /// The sentence of muParser in the long message of deal.II.
-  static std::string reason_of(const std::string &message)
-  {
-    const std::string introduction = "The parser said: ";
-    const std::size_t begin        = message.find(introduction);
-    if (begin == std::string::npos)
-      return "not a formula in t.";
-    const std::string sentence = message.substr(begin + introduction.size());
-    return dealii::Utilities::trim(sentence.substr(0, sentence.find('\n')));
-  }
-
-  struct MutedErrorStream
-  {
-    MutedErrorStream()
-      : buffer(std::cerr.rdbuf(nullptr))
-    {}
-    ~MutedErrorStream() { std::cerr.rdbuf(buffer); }
-    std::streambuf *buffer;
-  };
+  std::string formula;
+  Formulas<1> formulas;
 };
 
 /// All histories, in the order of the manual.

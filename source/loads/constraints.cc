@@ -27,7 +27,11 @@ void Constraints<dim>::declare_parameters(Parameters &parameters)
       prescribed.push_back(std::make_unique<PrescribedBoundary>());
       prescribed.back()->name         = name;
       prescribed.back()->direction[0] = 1.;
-      parameters.add_vector("Direction", prescribed.back()->direction, "-", "Direction of the prescribed component.");
+      parameters.add_choice("Along", prescribed.back()->along, {"direction", "normal"},
+                            "What the history is the velocity along: 'Direction', or at each node the normal of the "
+                            "undeformed boundary, out of the body. A cavity whose velocity is negative grows.");
+      parameters.add_vector("Direction", prescribed.back()->direction, "-",
+                            "Direction of the prescribed component; the others are free.");
       prescribed.back()->history.declare_parameters(parameters, "m/s");
     }
 }
@@ -48,6 +52,8 @@ void Constraints<dim>::finalize(const Parameters &parameters, const Geometry<dim
   for (auto &boundary : prescribed)
     {
       boundary->ids = geometry.boundary_ids(parameters, "Constraints/Prescribed velocities", {boundary->name});
+      if (boundary->along_normal() && parameters.is_set("Constraints/" + boundary->name + "/Direction"))
+        parameters.refuse("Constraints/" + boundary->name + "/Direction", "has no meaning with 'Along = normal'");
       if (boundary->direction.norm() == 0.)
         parameters.refuse("Constraints/" + boundary->name + "/Direction", "must not be zero");
       boundary->direction /= boundary->direction.norm();
@@ -74,7 +80,11 @@ bool Constraints<dim>::admits(Reduction &form, const Parameters &parameters) con
     return false;
   for (const auto &boundary : prescribed)
     {
-      if (!form.keeps(boundary->ids) || !form.is_symmetric(boundary->direction))
+      if (!form.keeps(boundary->ids))
+        return false;
+      if (boundary->along_normal()) // seen from all sides alike
+        continue;
+      if (!form.is_symmetric(boundary->direction))
         return false;
       form.shorten(parameters, "Constraints/" + boundary->name + "/Direction", boundary->direction);
     }
@@ -112,6 +122,39 @@ std::vector<NodeValue<SymmetricTensor<2, dim>>> boundary_normals(const Discretiz
   return result;
 }
 
+/// integral of n dS around each owned free node of boundaries.
+template <int dim>
+std::vector<NodeValue<Tensor<1, dim>>> boundary_areas(const Discretization<dim>             &discretization,
+                                                      const std::vector<types::boundary_id> &ids)
+{
+  std::vector<NodeValue<Tensor<1, dim>>> result;
+  for (const auto &[node, q] :
+       integrate_on_boundary<dim + 1>(discretization, ids, false,
+                                      [](const Point<dim> &, const Tensor<1, dim> &dA, const types::material_id) {
+                                        std::array<double, dim + 1> values;
+                                        for (unsigned int c = 0; c < dim; ++c)
+                                          values[c] = dA[c];
+                                        values[dim] = dA.norm();
+                                        return values;
+                                      }))
+    {
+      result.push_back({node, Tensor<1, dim>()});
+      for (unsigned int c = 0; c < dim; ++c)
+        result.back().value[c] = q[c];
+    }
+  return result;
+}
+
+/// What @p list (of ascending nodes) has for a node, or null.
+template <int dim>
+const SymmetricTensor<2, dim> *projector(const std::vector<NodeValue<SymmetricTensor<2, dim>>> &list,
+                                         const unsigned int                                     node)
+{
+  const auto position = std::lower_bound(list.begin(), list.end(), node,
+                                         [](const auto &entry, const unsigned int n) { return entry.node < n; });
+  return position != list.end() && position->node == node ? &position->value : nullptr;
+}
+
 /// Projector onto the directions that no face normal in @p normals (with trace 1) constrains.
 template <int dim>
 SymmetricTensor<2, dim> free_directions(const SymmetricTensor<2, dim> &normals)
@@ -143,34 +186,53 @@ void Constraints<dim>::reinit(const Discretization<dim> &discretization)
           P[0][c] = 0.;
       }
 
-  prescribed_nodes.clear();
-  for (unsigned int b = 0; b < prescribed.size(); ++b)
-    for (const auto &[node, normals] : boundary_normals(discretization, prescribed[b]->ids))
-      if (dim > 1 || !discretization.on_axis(node))
-        prescribed_nodes.push_back({node, b, Tensor<1, dim>()});
   exact_nodes.clear();
   for (const auto &[node, normals] : boundary_normals(discretization, exact))
     {
       if (dim == 1 && discretization.on_axis(node)) // at rest, and perhaps without mass
         continue;
       free.erase(node);
-      exact_nodes.push_back({{node, 0, Tensor<1, dim>()}, discretization.position(node)});
+      exact_nodes.push_back({{node, 0, {}, {}}, discretization.position(node)});
     }
   projectors.clear();
   for (const auto &[node, P] : free)
     projectors.push_back({node, P});
+  make_prescribed_nodes(discretization);
+}
+
+/// With the projectors of the present mesh.
+template <int dim>
+void Constraints<dim>::make_prescribed_nodes(const Discretization<dim> &discretization)
+{
+  prescribed_nodes.clear();
+  for (unsigned int b = 0; b < prescribed.size(); ++b)
+    for (const auto &[node, area] : boundary_areas(discretization, prescribed[b]->ids))
+      {
+        if (dim == 1 && discretization.on_axis(node))
+          continue;
+        Tensor<1, dim> direction = prescribed[b]->direction;
+        if (prescribed[b]->along_normal())
+          {
+            // the faces on this side of a plane of symmetry tilt the mean normal out of it
+            direction = area;
+            if (const auto *P = projector(projectors, node))
+              direction = *P * direction;
+            if (!(direction.norm() > 1e-8 * area.norm())) // held
+              continue;
+            direction /= direction.norm();
+          }
+        prescribed_nodes.push_back({node, b, direction, {}});
+      }
 }
 
 template <int dim>
 void Constraints<dim>::apply(State<dim> &state, const double dt, const double mean)
 {
-  for (auto &[node, boundary, reaction] : prescribed_nodes)
+  for (auto &[node, boundary, d, reaction] : prescribed_nodes)
     {
       // mean velocity of the coming step, so that the displacement follows the integral of the history to second order
-      const auto          &motion = *prescribed[boundary];
-      const double         target = motion.history.value(state.time + 0.5 * dt);
-      const Tensor<1, dim> d      = motion.direction;
-      double               v = 0., f = 0.;
+      const double target = prescribed[boundary]->history.value(state.time + 0.5 * dt);
+      double       v = 0., f = 0.;
       for (unsigned int c = 0; c < dim; ++c)
         {
           v += d[c] * state.half_velocity.local_element(dim * node + c);
@@ -232,11 +294,8 @@ void Constraints<dim>::project(DampingBlocks<dim> &blocks) const
 {
   for (auto &[node, D] : blocks)
     {
-      const unsigned int wanted   = node;
-      const auto         position = std::lower_bound(projectors.begin(), projectors.end(), wanted,
-                                                     [](const auto &entry, const unsigned int n) { return entry.node < n; });
-      if (position != projectors.end() && position->node == node)
-        D = symmetrize(Tensor<2, dim>(position->value) * Tensor<2, dim>(D) * Tensor<2, dim>(position->value));
+      if (const auto *P = projector(projectors, node))
+        D = symmetrize(Tensor<2, dim>(*P) * Tensor<2, dim>(D) * Tensor<2, dim>(*P));
     }
 }
 

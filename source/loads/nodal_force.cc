@@ -42,6 +42,14 @@ void Pressure<dim>::finalize(const Parameters &parameters, const Geometry<dim> &
 template <int dim>
 void Pressure<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &, const MaterialOfBlock &)
 {
+  if (follows_surface)
+    {
+      faces.reinit(discretization, ids);
+      area.clear();
+      for (const unsigned int node : faces.nodes())
+        area.push_back({node, Tensor<1, dim>()});
+      return;
+    }
   VectorType         sum = discretization.new_vector();
   const unsigned int n   = discretization.nodes_per_cell();
   for_each_face_point(discretization, ids,
@@ -57,6 +65,13 @@ void Pressure<dim>::reinit(const Discretization<dim> &discretization, const Noda
 template <int dim>
 void Pressure<dim>::add(VectorType &force, const State<dim> &state)
 {
+  if (follows_surface)
+    {
+      const VectorType &now = faces.areas(state.displacement);
+      for (auto &[node, value] : area)
+        for (unsigned int c = 0; c < dim; ++c)
+          value[c] = now.local_element(dim * node + c);
+    }
   factor = -history.value(state.time);
   add_forces(area, factor, force);
 }
@@ -64,7 +79,8 @@ void Pressure<dim>::add(VectorType &force, const State<dim> &state)
 template <int dim>
 std::string Pressure<dim>::description() const
 {
-  return "pressure '" + history.name() + "' on " + join(boundary_names);
+  return "pressure '" + history.name() + "' on " + join(boundary_names) +
+         (follows_surface ? ", on the deformed surface" : "");
 }
 
 template <int dim>

@@ -10,6 +10,7 @@ BlockEnergy &BlockEnergy::operator+=(const BlockEnergy &other)
   dissipated += other.dissipated;
   bulk_viscosity += other.bulk_viscosity;
   volume_change += other.volume_change;
+  note_hourglass(other.largest_hourglass, other.hourglass_cell);
   return *this;
 }
 

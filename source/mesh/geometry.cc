@@ -1,13 +1,12 @@
+#include <arenite/mesh/box.h>
 #include <arenite/mesh/geometry.h>
 #include <arenite/mesh/half_space.h>
 #include <arenite/mesh/imported_mesh.h>
 #include <arenite/mesh/round_bodies.h>
 
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Arenite
 {
@@ -30,104 +29,6 @@ std::vector<types::boundary_id> Geometry<dim>::boundary_ids(const Parameters &pa
 
 namespace
 {
-/// Axis-parallel box.
-template <int dim>
-class Box : public Geometry<dim>
-{
-public:
-  Box()
-  {
-    for (const std::string axis : {"x", "y", "z"})
-      {
-        if (this->names.size() == 2 * dim)
-          break;
-        this->names.push_back(axis + " min");
-        this->names.push_back(axis + " max");
-      }
-    for (unsigned int d = 0; d < dim; ++d)
-      upper[d] = 1.;
-    cells.assign(dim, "1");
-  }
-
-  void declare_parameters(Parameters &parameters) override
-  {
-    parameters.add_vector("Lower corner", lower, "m", "Corner with the smallest coordinates.");
-    parameters.add_vector("Upper corner", upper, "m", "Corner with the largest coordinates.");
-    parameters.add_list("Cells", cells, "Coarse cells along x, y, z.");
-    parameters.add_quantity(
-      "Distortion", distortion, "-", {0., 0.4, false, false},
-      "Moves the coarse vertices by up to this part of a cell, for tests of accuracy; 0 keeps bricks.");
-    path = parameters.current_path();
-  }
-
-  void finalize(const Parameters &parameters) override
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      if (upper[d] <= lower[d])
-        parameters.refuse(path + "/Upper corner", "every coordinate must be larger than that of 'Lower corner'");
-    if (n_hoop_directions(this->symmetry) > 0 && lower[0] < 0.)
-      parameters.refuse(path + "/Lower corner", "the first coordinate is the radius and must not be negative");
-    if (cells.size() != dim)
-      parameters.refuse(path + "/Cells", "needs " + std::to_string(dim) + " numbers");
-    for (const std::string &n : cells)
-      {
-        const bool digits = !n.empty() && n.size() <= 6 &&
-                            std::all_of(n.begin(), n.end(), [](const char c) { return c >= '0' && c <= '9'; });
-        if (!digits || std::stoi(n) < 1)
-          parameters.refuse(path + "/Cells", "'" + n + "' is not a positive number of cells");
-        repetitions.push_back(std::stoi(n));
-      }
-  }
-
-  void create(Triangulation<dim> &triangulation) const override
-  {
-    GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions, Point<dim>(lower), Point<dim>(upper), true);
-    for (const auto &cell : triangulation.active_cell_iterators())
-      cell->set_material_id(0); // the colours of the generator are octants
-    if (distortion == 0.)
-      return;
-    const Tensor<1, dim> size = upper - lower;
-    double               h    = size[0] / repetitions[0];
-    for (unsigned int d = 1; d < dim; ++d)
-      h = std::min(h, size[d] / repetitions[d]);
-    // an irregular but repeatable displacement; vertices stay on the planes of the box
-    GridTools::transform(
-      [&](const Point<dim> &x) {
-        Point<dim> y = x;
-        for (unsigned int d = 0; d < dim; ++d)
-          if (x[d] > lower[d] + 1e-10 * size[d] && x[d] < upper[d] - 1e-10 * size[d])
-            {
-              double phase = 1.3 * d;
-              for (unsigned int e = 0; e < dim; ++e)
-                phase += (2.1 + 1.7 * ((d + e) % dim)) * (x[e] - lower[e]) / h;
-              y[d] += distortion * h * std::sin(phase);
-            }
-        return y;
-      },
-      triangulation);
-  }
-
-  /// The sides along the coordinates that the form leaves out are cut.
-  bool admits(Reduction &form, const Parameters &parameters) const override
-  {
-    if (n_hoop_directions(form.form) > 0)
-      return false;
-    for (unsigned int d = form.dimension(); d < dim; ++d)
-      form.cut.insert(form.cut.end(), {2 * d, 2 * d + 1});
-    form.shorten(parameters, path + "/Lower corner", lower);
-    form.shorten(parameters, path + "/Upper corner", upper);
-    form.shorten(parameters, path + "/Cells", cells);
-    return true;
-  }
-
-private:
-  Tensor<1, dim>            lower, upper;
-  std::vector<std::string>  cells;
-  std::vector<unsigned int> repetitions;
-  double                    distortion = 0.;
-  std::string               path;
-};
-
 /// Prismatic bar along x with its own boundary names.
 class Bar : public Geometry<3>
 {
@@ -167,7 +68,8 @@ Registry<Geometry<dim>> make_geometries()
   registry.template add<SphericalShell<dim>>(
     "spherical shell", "Octant, half or full shell around a spherical cavity, graded towards it.");
   registry.template add<Ball<dim>>("ball", "Octant or full solid ball.");
-  registry.template add<Box<dim>>("box", "Axis-parallel box, rectangle or segment.");
+  registry.template add<Box<dim>>("box",
+                                  "Box, rectangle or segment along the axes, in layers of material, mapped if wanted.");
   if constexpr (dim == 3)
     {
       registry.template add<Bar>("bar", "Prismatic bar along x; three dimensions only.");

@@ -1,3 +1,4 @@
+#include <arenite/mesh/cell_audit.h>
 #include <arenite/mesh/imported_mesh.h>
 
 #include <deal.II/base/utilities.h>
@@ -8,7 +9,6 @@
 #include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 
 namespace Arenite
 {
@@ -16,35 +16,6 @@ using namespace dealii;
 
 namespace
 {
-template <int dim>
-std::string text(const Point<dim> &x)
-{
-  std::ostringstream stream;
-  stream << '(' << x << ')';
-  return stream.str();
-}
-
-/// First corner of a cell whose Jacobian is not positive, as a sentence; empty if the cell is sound.
-template <int dim>
-std::string corner_problem(const typename Triangulation<dim>::active_cell_iterator &cell)
-{
-  for (const unsigned int v : cell->vertex_indices())
-    {
-      Tensor<2, dim> J; // edges that leave the corner, in the directions of the reference axes
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const unsigned int   other = v ^ (1u << d);
-          const Tensor<1, dim> edge  = cell->vertex(other) - cell->vertex(v);
-          for (unsigned int c = 0; c < dim; ++c)
-            J[c][d] = (v >> d) & 1u ? -edge[c] : edge[c];
-        }
-      if (!(determinant(J) > 0.))
-        return "cell " + std::to_string(cell->active_cell_index()) + " is inverted or flat at corner " +
-               text(cell->vertex(v)) + " (Jacobian " + Utilities::to_string(determinant(J)) + " m^3)";
-    }
-  return "";
-}
-
 /// Two different vertices closer than 1e-6 of the smallest cell: the parts would not be glued.
 template <int dim>
 std::string unglued_vertices(const Triangulation<dim> &mesh)
@@ -59,7 +30,7 @@ std::string unglued_vertices(const Triangulation<dim> &mesh)
   for (unsigned int i = 0; i < order.size(); ++i)
     for (unsigned int j = i + 1; j < order.size() && x[order[j]][0] - x[order[i]][0] <= tolerance; ++j)
       if (x[order[i]].distance(x[order[j]]) <= tolerance)
-        return "two nodes lie at " + text(x[order[i]]) + " without being the same: the parts there are not glued";
+        return "two nodes lie at " + place_text(x[order[i]]) + " without being the same: the parts there are not glued";
   return "";
 }
 } // namespace
@@ -98,8 +69,8 @@ void ImportedMesh<dim>::finalize(const Parameters &parameters)
     }
   for (const auto &cell : mesh.active_cell_iterators())
     if (!cell->reference_cell().is_hyper_cube())
-      parameters.refuse(entry, "contains cells that are not hexahedra (the first one around " + text(cell->center()) +
-                                 "); Arenite needs hexahedra only");
+      parameters.refuse(entry, "contains cells that are not hexahedra (the first one around " +
+                                 place_text(cell->center()) + "); Arenite needs hexahedra only");
   GridTools::scale(scale, mesh);
   for (const auto &cell : mesh.active_cell_iterators())
     {
@@ -110,7 +81,7 @@ void ImportedMesh<dim>::finalize(const Parameters &parameters)
   if (n_hoop_directions(this->symmetry) > 0)
     for (const Point<dim> &x : mesh.get_vertices())
       if (x[0] < 0.)
-        parameters.refuse(entry, "has a node at " + text(x) + "; the first coordinate is the radius");
+        parameters.refuse(entry, "has a node at " + place_text(x) + "; the first coordinate is the radius");
   const std::string problem = unglued_vertices(mesh);
   if (!problem.empty())
     parameters.refuse(entry, problem);

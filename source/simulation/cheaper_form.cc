@@ -24,7 +24,7 @@ std::vector<Symmetry> fewer_dimensions(const Symmetry symmetry)
 template <int dim>
 bool admits(const Scene<dim> &scene, Reduction &form, const Parameters &parameters)
 {
-  if (scene.blocks.size() != 1 || !scene.mesh.geometry->admits(form, parameters) ||
+  if (scene.blocks.size() != 1 || !scene.initial_velocity.at_rest() || !scene.mesh.geometry->admits(form, parameters) ||
       !scene.constraints.admits(form, parameters))
     return false;
   for (const auto &load : scene.loads)

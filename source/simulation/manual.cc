@@ -42,6 +42,12 @@ end
 subsection Constraints
   set Prescribed velocities = outer
 end
+subsection Initial conditions
+  set Moving regions = moving region
+  subsection moving region
+    set Velocity = 0; 0; 0
+  end
+end
 subsection Receivers
   subsection points
     set Points = 0.2, 0, 0

@@ -80,6 +80,7 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
   {
     const auto section = parameters.section("Initial conditions");
     parameters.add_choice("State", initial_state, {"rest", "exact solution"}, "Displacement and velocity at t = 0.");
+    initial_velocity.declare_parameters(parameters);
   }
   time_step.declare_parameters(parameters);
   adaptor.declare_parameters(parameters);
@@ -110,8 +111,13 @@ void Scene<dim>::finalize(Parameters &parameters)
                           "is the id of block '" + position->second + "' too");
     }
   for (auto &load : loads)
-    load->finalize(parameters, *mesh.geometry);
+    {
+      load->finalize(parameters, *mesh.geometry);
+      if (kinematics.finite_strain())
+        load->use_finite_strain();
+    }
   constraints.finalize(parameters, *mesh.geometry);
+  initial_velocity.finalize(parameters, block_names);
   time_step.finalize(parameters);
   adaptor.finalize(parameters, mesh, *mesh.geometry);
   for (const Block &block : blocks)

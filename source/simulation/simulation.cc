@@ -1,6 +1,7 @@
 #include <arenite/base/errors.h>
 #include <arenite/base/values.h>
 #include <arenite/io/error_norms.h>
+#include <arenite/simulation/block_summary.h>
 #include <arenite/simulation/resolution.h>
 #include <arenite/simulation/simulation.h>
 
@@ -119,6 +120,8 @@ void Simulation<dim>::set_initial_state()
             state.half_velocity.local_element(dim * node + c) = v[c];
           }
       }
+  else
+    scene.initial_velocity.apply(*dynamics, state);
   scene.constraints.project(state.half_velocity);
   zero_at_hanging_nodes(discretization, state.half_velocity);
   make_consistent(discretization, state.displacement); // the energy of the start needs ghosts and hanging nodes
@@ -147,6 +150,7 @@ void Simulation<dim>::describe() const
     }
   for (const auto &load : dynamics->loads)
     text << "Load       " << load->name << ": " << load->description() << '\n';
+  text << scene.initial_velocity.description();
   text << "Mass       " << initial_mass * scene.mesh.geometry->symmetry_factor() << " kg" << per_extent(scene.symmetry)
        << " of the full body; boundaries: " << join(scene.mesh.geometry->boundary_names()) << '\n';
   text << "Step       stable up to " << scene.time_step.limit() << " s (cell at " << scene.time_step.limiting_place()
@@ -274,10 +278,27 @@ void Simulation<dim>::run(const OutputDirectory &directory)
         record.errors.merge(traction_error(discretization, material_of_block(), state.displacement, loaded,
                                            *scene.exact_solution, state.time));
     }
+  record_dissipation();
   if (n_adaptations > 0)
     log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
         << 100. * adaptation_seconds / record.core_seconds << " % of the run); the front met "
         << scene.adaptor.coarse_cells_met() << " cells before they were refined\n";
+}
+
+/// What the points dissipated, for run.json and the log.
+template <int dim>
+void Simulation<dim>::record_dissipation()
+{
+  const BlockEnergy   own = dynamics->stored_energy(state);
+  std::vector<double> sums{own.dissipated, own.bulk_viscosity, own.hourglass};
+  Utilities::MPI::sum(sums, communicator, sums);
+  record.dissipation            = record.symmetry_factor * sums[0];
+  record.artificial_dissipation = record.symmetry_factor * sums[1];
+  record.hourglass_energy       = record.symmetry_factor * sums[2];
+  std::vector<std::string> names;
+  for (const Block &block : scene.blocks)
+    names.push_back(block.name);
+  log << describe_blocks(*dynamics, state, names, record.symmetry_factor);
 }
 
 template <int dim>

@@ -29,6 +29,8 @@ struct RunRecord
   double setup_core_seconds = 0., core_seconds = 0., output_core_seconds = 0.;
 
   double energy_error = 0., mass_error = 0., momentum_error = 0.;
+  double dissipation = 0., artificial_dissipation = 0.,
+         hourglass_energy = 0.; ///< by laws; by bulk viscosity; full body [J]
   /// "<receiver set>.<quantity>.E_t", "volume.<quantity>.E_x", "boundary.traction.E_inf" -> relative error
   std::map<std::string, double> errors;
   /// "<receiver set>.<quantity>.rms|peak": what runs without an exact solution are compared by

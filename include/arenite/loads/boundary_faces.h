@@ -21,6 +21,12 @@ dealii::Quadrature<dim - 1> face_rule(const dealii::Quadrature<1> &line)
     return dealii::Quadrature<dim - 1>(line);
 }
 
+/// Points per direction of the faces of elements of degree @p p.
+inline dealii::Quadrature<1> face_points(const unsigned int p)
+{
+  return p == 1 ? dealii::Quadrature<1>(dealii::QGauss<1>(2)) : dealii::Quadrature<1>(dealii::QGaussLobatto<1>(p + 1));
+}
+
 /// Quadrature over the faces of named boundaries, on the geometry of the node positions.
 ///
 /// visit(nodes, N, x, dA, material id of the cell) is called for each quadrature point of each owned face: local node numbers of the cell (lexicographic),
@@ -33,9 +39,8 @@ void for_each_face_point(const Discretization<dim> &discretization, const std::v
                          const Visit &visit, const bool of_the_mesh = false)
 {
   using namespace dealii;
-  const unsigned int  p = discretization.degree(), n = discretization.nodes_per_cell();
-  const Quadrature<1> line = p == 1 ? Quadrature<1>(QGauss<1>(2)) : Quadrature<1>(QGaussLobatto<1>(p + 1));
-  const auto          rule = face_rule<dim>(line);
+  const unsigned int n    = discretization.nodes_per_cell();
+  const auto         rule = face_rule<dim>(face_points(discretization.degree()));
 
   // shape functions at the points of each face of the unit cell
   std::vector<std::vector<double>>         value(2 * dim, std::vector<double>(rule.size() * n));

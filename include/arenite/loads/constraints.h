@@ -48,24 +48,30 @@ public:
   const ExactSolution<dim> *exact_solution = nullptr;
 
 private:
+  using Projectors = std::vector<NodeValue<dealii::SymmetricTensor<2, dim>>>; ///< ascending nodes
+
   struct PrescribedBoundary
   {
     std::string                             name;
     std::vector<dealii::types::boundary_id> ids;
+    std::string                             along = "direction";
     dealii::Tensor<1, dim>                  direction;
     HistoryChoice                           history;
+    bool                                    along_normal() const { return along == "normal"; }
   };
   struct PrescribedNode
   {
     unsigned int           node, boundary;
-    dealii::Tensor<1, dim> reaction;
+    dealii::Tensor<1, dim> direction, reaction;
   };
+
+  void make_prescribed_nodes(const Discretization<dim> &);
 
   std::vector<std::string>                         symmetry_names{"auto"}, fixed_names, prescribed_names, exact_names;
   std::vector<dealii::types::boundary_id>          symmetry, fixed, exact;
   std::vector<std::unique_ptr<PrescribedBoundary>> prescribed;
-  std::vector<NodeValue<dealii::SymmetricTensor<2, dim>>>    projectors; ///< ascending nodes
-  std::vector<PrescribedNode>                                prescribed_nodes;
+  Projectors                                       projectors;
+  std::vector<PrescribedNode>                      prescribed_nodes;
   std::vector<std::pair<PrescribedNode, dealii::Point<dim>>> exact_nodes;
 };
 } // namespace Arenite

@@ -35,10 +35,13 @@ public:
   virtual void declare_parameters(Parameters &) = 0;
   virtual void finalize(const Parameters &, const Geometry<dim> &) {}
 
+  /// From now on the body deforms for good, 'Kinematics = finite strain': a load on the surface goes with it. Before reinit().
+  virtual void use_finite_strain() {}
+
   /// Rebuild nodal lists after a change of the mesh. @p material: law of the cells with a material id.
   virtual void reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &material) = 0;
 
-  /// force += f(t_n); also remembers f for power().
+  /// force += f(t_n); also remembers f for power(). Displacement with valid ghosts and hanging nodes. Collective.
   virtual void add(VectorType &force, const State<dim> &) = 0;
 
   /// Dashpots [N s/m]: the update treats - D (v_{n-1/2} + v_{n+1/2})/2 implicitly, node by node.

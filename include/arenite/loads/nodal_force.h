@@ -1,5 +1,6 @@
 #pragma once
 
+#include <arenite/loads/deformed_faces.h>
 #include <arenite/loads/load.h>
 
 namespace Arenite
@@ -30,13 +31,15 @@ double power_of(const NodalForces<dim> &list, const double factor, const VectorT
   return factor * sum;
 }
 
-/// Pressure p(t) on named boundaries: f_i = -p(t) integral of N_i n dA, on the undeformed surface.
+/// Pressure p(t) on named boundaries: f_i = -p(t) integral of N_i n dA, on the undeformed surface or, with finite strain, on
+/// the deformed one of each time.
 template <int dim>
 class Pressure : public Load<dim>
 {
 public:
   void        declare_parameters(Parameters &) override;
   void        finalize(const Parameters &, const Geometry<dim> &) override;
+  void        use_finite_strain() override { follows_surface = true; }
   void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override { return power_of(area, factor, half_velocity); }
@@ -51,6 +54,8 @@ private:
   std::vector<dealii::types::boundary_id> ids;
   HistoryChoice                           history;
   std::string                             path;
+  bool                                    follows_surface = false;
+  DeformedFaces<dim>                      faces;       ///< if so
   NodalForces<dim>                        area;        ///< integral of N_i n dA [m^2]
   double                                  factor = 0.; ///< -p(t_n)
 };

@@ -64,6 +64,7 @@ public:
           {
             total.strain += lane(energy.strain, l);
             total.hourglass += lane(energy.hourglass, l);
+            total.note_hourglass(lane(energy.hourglass, l), batches.cells[b * W + l]);
           }
       }
     return total;

@@ -8,6 +8,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -52,6 +53,17 @@ struct BlockEnergy
   double bulk_viscosity = 0.; ///< dissipated by it, since the start
   double volume_change  = 0.; ///< minus the integral of the energy stored per present volume over dJ, since the start
 
+  double       largest_hourglass = 0.;                                       ///< of one cell
+  unsigned int hourglass_cell    = std::numeric_limits<unsigned int>::max(); ///< which one, on this process
+
+  void note_hourglass(const double energy, const unsigned int cell)
+  {
+    if (energy > largest_hourglass)
+      {
+        largest_hourglass = energy;
+        hourglass_cell    = cell;
+      }
+  }
   double       total() const { return strain + hourglass + dissipated + bulk_viscosity + volume_change; }
   BlockEnergy &operator+=(const BlockEnergy &other);
 };
@@ -103,6 +115,9 @@ public:
   /// Largest eigenvalue of each element's own M^-1 K [1/s^2] by power iteration (from below). With viscous forces -C v the fixed point
   /// lambda of M^-1 (K + sqrt(lambda) C): the element alone is stable up to dt = 2/sqrt(lambda) in both cases.
   virtual void largest_eigenvalue(dealii::Vector<double> &per_cell) const = 0;
+
+  /// Of a small overstress at rest [s]; 0: not known.
+  virtual double relaxation_time() const { return 0.; }
 
   /// Its elasticity at rest.
   virtual const LinearElastic &material() const = 0;

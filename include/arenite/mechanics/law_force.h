@@ -5,6 +5,7 @@
 #include <arenite/mechanics/internal_force.h>
 #include <arenite/mechanics/point_motion.h>
 #include <arenite/mechanics/point_operators.h>
+#include <arenite/mechanics/present_shape.h>
 
 #include <cmath>
 
@@ -37,6 +38,7 @@ public:
   using Number                  = Lanes<W>;
   using Operators               = PointOperators<Element, Number>;
   using Motion                  = PointMotion<dim, n_hoop, Number>;
+  using Shape                   = PresentShape<dim, Number>;
   static constexpr int n_points = Operators::n_points;
 
   LawForce(const ElementChoice &element, const KinematicsChoice &kinematics, std::unique_ptr<const BatchLaw> law,
@@ -136,6 +138,8 @@ public:
     total.dissipated     = points.dissipated;
     total.bulk_viscosity = points.viscous_work;
     total.volume_change  = points.volume_change;
+    for (std::size_t place = 0; place < points.hourglass.size(); ++place)
+      total.note_hourglass(points.hourglass[place], batches.cells[place]);
     return total;
   }
 
@@ -147,6 +151,7 @@ public:
   void largest_eigenvalue(dealii::Vector<double> &per_cell) const override { elastic->largest_eigenvalue(per_cell); }
 
   const LinearElastic &material() const override { return elastic->material(); }
+  double               relaxation_time() const override { return law->relaxation_time_at_rest(); }
 
   std::string description() const override
   {
@@ -197,7 +202,7 @@ public:
         for (unsigned int k = 0; k < n_history; ++k)
           v[9 + k] = at(points.history, k, n_history);
       }
-    points_to_nodes(at_points, n_values, values);
+    points_to_nodes<Element>(at_points, n_values, values);
     return true;
   }
 
@@ -236,7 +241,7 @@ private:
         gather<dim, W, n_nodes>(positions->begin(), entries(batch), x);
         const Operators operators(x);
         for (int q = 0; q < n_points; ++q)
-          largest = Arenite::max<Number>(largest, square_norm(operators.metric[q]));
+          largest = Arenite::max<Number>(largest, Shape::square_norm(operators.metric[q]));
         for (int l = 0; l < batches.active[batch]; ++l)
           {
             const unsigned int cell = batches.cells[batch * W + l];
@@ -244,45 +249,6 @@ private:
             ratio[batch * W + l] = 1.03 * std::max(solid[cell], fluid[cell]) / (c2 * lane(largest, l));
           }
       }
-  }
-
-  static ARENITE_INLINE Number square_norm(const Number (&a)[dim][dim])
-  {
-    Number sum = Number(0.);
-    for (int k = 0; k < dim; ++k)
-      for (int j = 0; j < dim; ++j)
-        sum += a[k][j] * a[k][j];
-    return sum;
-  }
-
-  /// A = d xi/d x on the present shape.
-  ARENITE_INLINE void present_metric(const Number (&metric)[dim][dim], const Number (&H)[dim][dim],
-                                     Number (&A)[dim][dim]) const
-  {
-    if (!finite)
-      {
-        for (int k = 0; k < dim; ++k)
-          for (int j = 0; j < dim; ++j)
-            A[k][j] = metric[k][j];
-        return;
-      }
-    Number F[dim][dim], C[dim][dim];
-    deformation(H, F);
-    const Number inverse = Number(1.) / cofactors(F, C);
-    for (int k = 0; k < dim; ++k)
-      for (int j = 0; j < dim; ++j)
-        {
-          Number sum = metric[k][0] * C[j][0]; // F^-1_Jj = C_jJ/det
-          for (int i = 1; i < dim; ++i)
-            sum += metric[k][i] * C[j][i];
-          A[k][j] = sum * inverse;
-        }
-  }
-  static ARENITE_INLINE void deformation(const Number (&H)[dim][dim], Number (&F)[dim][dim])
-  {
-    for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j)
-        F[i][j] = H[i][j] + Number(i == j ? 1. : 0.);
   }
 
   /// The points of a batch go to the end of the step: stress, history, q, and the sums over the block.
@@ -323,7 +289,9 @@ private:
         viscosity[q]       = Number(0.);
         if ((b1 > 0. || b2 > 0.) && dt_last > 0.)
           {
-            const Number c = load<Number>(&points.wave_speed[at]), l = length_of(operators.metric[q], H[q], m.strain);
+            const Number c = load<Number>(&points.wave_speed[at]),
+                         l = Number(Operators::length_of_unit) *
+                             Shape::length_along(m.strain, operators.metric[q], H[q], finite);
             const auto   compression = D < Number(0.);
             const Number linear = density[q] * l * Number(b1) * c, quadratic = density[q] * Number(b2 * b2) * l * l;
             q_new = Arenite::select<Number>(compression, Number((quadratic * -D + linear) * -D),
@@ -378,8 +346,8 @@ private:
           volume_change -= w * Number(0.5) * (stored_old[q] + stored) * (J - J_old);
 
         Number A[dim][dim];
-        present_metric(operators.metric[q], H[q], A);
-        const Number g = shape * square_norm(A), nu = viscosity[q] + Number(law->viscosity_time()) * c * c,
+        Shape::metric(operators.metric[q], H[q], finite, A);
+        const Number g = shape * Shape::square_norm(A), nu = viscosity[q] + Number(law->viscosity_time()) * c * c,
                      f = g * c * c;
         frequency      = Arenite::max<Number>(frequency, f);
         // 1/dt = g (nu + sqrt(nu^2 + 4 c^2/g))/4
@@ -429,27 +397,6 @@ private:
     for (int k = 0; k < 6; ++k)
       sum += load<Number>(stress + k * W);
     return sum;
-  }
-
-  /// Length of the cell, over its degree, in the direction of straining.
-  ARENITE_INLINE Number length_of(const Number (&metric)[dim][dim], const Number (&H)[dim][dim],
-                                  const SymTensor<Number> &strain) const
-  {
-    Number A[dim][dim];
-    present_metric(metric, H, A);
-    // without any strain the direction does not matter
-    Number straining = Number(1e-200), across = Number(1e-200) * square_norm(A);
-    for (int k = 0; k < dim; ++k)
-      for (int j = 0; j < dim; ++j)
-        {
-          const Number d   = strain[Motion::index(k, j)];
-          Number       sum = A[k][0] * strain[Motion::index(0, j)];
-          for (int i = 1; i < dim; ++i)
-            sum += A[k][i] * strain[Motion::index(i, j)];
-          straining += d * d;
-          across += sum * sum;
-        }
-    return Number(Operators::length_of_unit) * square_root(Number(straining / across));
   }
 
   /// Mean dilatation: every point has the change of volume of the cell.
@@ -545,7 +492,7 @@ private:
             continue;
           }
         Number F[dim][dim], C[dim][dim], stretch = Number(1.) + h[q], others = Number(1.); // in the hoop directions
-        deformation(H[q], F);
+        Shape::deformation(H[q], F);
         const Number det = cofactors(F, C);
         for (int i = 0; i < n_hoop; ++i)
           others *= stretch;
@@ -593,7 +540,7 @@ private:
         for (int k = 0; k < 3; ++k)
           s[k] = load<Number>(&points.stress[6 * at + k * W]);
         Number F[dim][dim], C[dim][dim];
-        deformation(H[q], F);
+        Shape::deformation(H[q], F);
         Number J = cofactors(F, C);
         for (int i = 0; i < n_hoop; ++i)
           J *= Number(1.) + h[q];
@@ -604,26 +551,6 @@ private:
     mean_pressure *= Number(1.) / volume;
     mean_J *= Number(1.) / volume;
     (void)h;
-  }
-
-  /// Values at the nodes of the polynomial through the points: the points themselves, a constant, or the multilinear one through 2^dim
-  /// Gauss points.
-  static void points_to_nodes(const std::vector<double> &at_points, const unsigned int n_values,
-                              std::vector<double> &values)
-  {
-    values.assign(n_nodes * n_values, 0.);
-    for (int n = 0; n < n_nodes; ++n)
-      for (int q = 0; q < n_points; ++q)
-        {
-          double factor = 1.;
-          if constexpr (n_points == n_nodes && Element::has_gauss_points)
-            for (int b = 1; b < n_nodes; b *= 2) // node at 1, points at 1/sqrt(3)
-              factor *= 0.5 * (1. + ((n & b) == (q & b) ? 1.7320508075688772935 : -1.7320508075688772935));
-          else if constexpr (n_points == n_nodes)
-            factor = n == q ? 1. : 0.;
-          for (unsigned int k = 0; factor != 0. && k < n_values; ++k)
-            values[n * n_values + k] += factor * at_points[q * n_values + k];
-        }
   }
 
   const ElementChoice                 element;

@@ -3,6 +3,8 @@
 #include <arenite/mechanics/mean_dilatation_element.h>
 #include <arenite/mechanics/spectral_element.h>
 
+#include <vector>
+
 namespace Arenite
 {
 /// Displacement gradients at the points of a batch of elements, and their transpose: what kernels with a separate law need of an
@@ -322,4 +324,27 @@ private:
     return sum;
   }
 };
+
+/// Values at the nodes, [node][value], of the polynomial through the points of an element, [point][value]: the points themselves, the
+/// multilinear one through 2^dim Gauss points, or a constant.
+template <typename Element>
+void points_to_nodes(const std::vector<double> &at_points, const unsigned int n_values, std::vector<double> &values)
+{
+  constexpr int n_nodes  = Element::n_nodes;
+  const int     n_points = static_cast<int>(at_points.size() / n_values);
+  values.assign(n_nodes * n_values, 0.);
+  for (int n = 0; n < n_nodes; ++n)
+    for (int q = 0; q < n_points; ++q)
+      {
+        double factor = n_points == 1 || n == q ? 1. : 0.;
+        if (Element::has_gauss_points)
+          {
+            factor = 1.;
+            for (int b = 1; b < n_nodes; b *= 2) // nodes at 1, points at 1/sqrt(3)
+              factor *= 0.5 * (1. + ((n & b) == (q & b) ? 1. : -1.) * 1.7320508075688772935);
+          }
+        for (unsigned int k = 0; factor != 0. && k < n_values; ++k)
+          values[n * n_values + k] += factor * at_points[q * n_values + k];
+      }
+}
 } // namespace Arenite

@@ -12,6 +12,7 @@
 #include <arenite/mechanics/internal_force.h>
 #include <arenite/mechanics/point_motion.h>
 #include <arenite/mesh/geometry.h>
+#include <arenite/simulation/initial_velocity.h>
 #include <arenite/time/stable_time_step.h>
 #include <arenite/verification/solution_choice.h>
 
@@ -51,6 +52,7 @@ struct Scene
   std::vector<std::unique_ptr<Load<dim>>>   loads;
   Constraints<dim>                          constraints;
   std::string                               initial_state = "rest";
+  InitialVelocity<dim>                      initial_velocity;
   StableTimeStep<dim>                       time_step;
   MeshAdaptor<dim>                          adaptor;
   ReceiverSets<dim>                         receivers;

@@ -45,7 +45,7 @@ private:
   void                                observe(const OutputDirectory &, double dt, bool last);
   void                                watch(const EnergyReport &);
   void                                watch(const PointLimits<dim> &) const;
-  void                                describe_shocks() const;
+  void                                record_dissipation();
   void                                write_picture(const OutputDirectory &);
   double                              core_seconds(Clock::time_point since) const;
 

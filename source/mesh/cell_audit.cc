@@ -1,0 +1,49 @@
+#include <arenite/mesh/cell_audit.h>
+
+#include <deal.II/base/tensor.h>
+#include <deal.II/base/utilities.h>
+#include <deal.II/grid/tria_accessor.h>
+
+#include <sstream>
+
+namespace Arenite
+{
+using namespace dealii;
+
+template <int dim>
+std::string place_text(const Point<dim> &x)
+{
+  std::ostringstream stream;
+  stream << '(' << x << ')';
+  return stream.str();
+}
+
+template <int dim>
+std::string corner_problem(const typename Triangulation<dim>::active_cell_iterator &cell)
+{
+  for (const unsigned int v : cell->vertex_indices())
+    {
+      Tensor<2, dim> J; // edges that leave the corner, in the directions of the reference axes
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const unsigned int   other = v ^ (1u << d);
+          const Tensor<1, dim> edge  = cell->vertex(other) - cell->vertex(v);
+          for (unsigned int c = 0; c < dim; ++c)
+            J[c][d] = (v >> d) & 1u ? -edge[c] : edge[c];
+        }
+      if (!(determinant(J) > 0.))
+        return "cell " + std::to_string(cell->active_cell_index()) + " is inverted or flat at corner " +
+               place_text(cell->vertex(v)) + " (Jacobian " + Utilities::to_string(determinant(J)) + " m^" +
+               std::to_string(dim) + ")";
+    }
+  return "";
+}
+
+#define ARENITE_INSTANTIATE(dim)                       \
+  template std::string place_text(const Point<dim> &); \
+  template std::string corner_problem<dim>(const typename Triangulation<dim>::active_cell_iterator &);
+ARENITE_INSTANTIATE(1)
+ARENITE_INSTANTIATE(2)
+ARENITE_INSTANTIATE(3)
+#undef ARENITE_INSTANTIATE
+} // namespace Arenite
