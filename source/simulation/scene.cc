@@ -81,6 +81,7 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
     const auto section = parameters.section("Initial conditions");
     parameters.add_choice("State", initial_state, {"rest", "exact solution"}, "Displacement and velocity at t = 0.");
     initial_velocity.declare_parameters(parameters);
+    initial_energy.declare_parameters(parameters);
   }
   time_step.declare_parameters(parameters);
   adaptor.declare_parameters(parameters);
@@ -118,6 +119,7 @@ void Scene<dim>::finalize(Parameters &parameters)
     }
   constraints.finalize(parameters, *mesh.geometry);
   initial_velocity.finalize(parameters, block_names);
+  initial_energy.finalize(parameters);
   time_step.finalize(parameters);
   adaptor.finalize(parameters, mesh, *mesh.geometry);
   for (const Block &block : blocks)

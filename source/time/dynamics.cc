@@ -234,6 +234,12 @@ PointLimits<dim> Dynamics<dim>::point_limits(const State<dim> &state) const
 }
 
 template <int dim>
+bool Dynamics<dim>::gives_point_values() const
+{
+  return std::any_of(blocks.begin(), blocks.end(), [](const auto &block) { return block->gives_point_values(); });
+}
+
+template <int dim>
 std::vector<std::string> Dynamics<dim>::names_of_point_values() const
 {
   std::vector<std::string> names;

@@ -6,6 +6,7 @@
 #include <arenite/materials/ideal_gas.h>
 #include <arenite/materials/linear_elastic_law.h>
 #include <arenite/materials/mie_grueneisen.h>
+#include <arenite/materials/neo_hookean.h>
 #include <arenite/materials/porous_compaction.h>
 #include <arenite/materials/soil_stiffening.h>
 #include <arenite/materials/soil_stiffness.h>
@@ -21,6 +22,7 @@ namespace Arenite
 /// Every law that `set Law` can choose, in the order of the manual. A line here registers a law for scenes, bench and manual, and
 /// puts it under the tests of the contract.
 using LawTypes = std::tuple<LinearElasticLaw,                                   //
+                            NeoHookean,                                         //
                             ViscoplasticCap<ConstantStiffness>,                 //
                             ViscoplasticCap<SoilStiffness>,                     //
                             UndrainedCap,                                       //

@@ -2,11 +2,12 @@
 
 #include <arenite/mechanics/cell_batches.h>
 #include <arenite/mechanics/internal_force.h>
-#include <arenite/mechanics/mean_dilatation_element.h>
+#include <arenite/mechanics/point_operators.h>
 #include <arenite/mechanics/spectral_element.h>
 
 #include <deal.II/base/exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Arenite
@@ -16,7 +17,7 @@ template <typename Element, int W>
 class ElasticForce : public InternalForce<Element::dim>
 {
 public:
-  static constexpr int dim = Element::dim, n_nodes = Element::n_nodes;
+  static constexpr int dim = Element::dim, n_nodes = Element::n_nodes, n_hoop = Element::n_hoop;
   using Number = Lanes<W>;
 
   ElasticForce(const ElementChoice &element, const LinearElastic &law, const dealii::types::material_id block)
@@ -112,6 +113,23 @@ public:
   void reinit_state(BlockState &record) const override
   {
     record.amplitude.resize(viscous ? batches.size() * n_amplitudes * W : 0, 0.);
+  }
+
+  bool gives_point_values() const override { return Element::mean_dilatation; }
+
+  std::vector<std::string> names_of_point_values() const override
+  {
+    return Element::mean_dilatation ? std::vector<std::string>{"density [kg/m^3]"} : std::vector<std::string>();
+  }
+
+  /// With the mean volume strain, which the displacement of a point alone does not tell.
+  bool point_values(const State<dim> &state, const BlockState &, const unsigned int cell,
+                    std::vector<double> &values) const override
+  {
+    if constexpr (Element::mean_dilatation)
+      return stress_of_mean_dilatation(state, cell, values);
+    else
+      return (void)state, (void)cell, (void)values, false;
   }
 
   const LinearElastic &material() const override { return law; }
@@ -290,6 +308,49 @@ private:
       }
   }
 
+  bool stress_of_mean_dilatation(const State<dim> &state, const unsigned int cell, std::vector<double> &values) const
+  {
+    const auto place = std::find(batches.cells.begin(), batches.cells.end(), cell) - batches.cells.begin();
+    if (place == std::ptrdiff_t(batches.cells.size()))
+      return false;
+    const unsigned int batch = place / W, l = place % W;
+    Number             x[dim][n_nodes], u[dim][n_nodes], H[n_nodes][dim][dim], h[n_nodes];
+    load(batch, positions->begin(), x);
+    load(batch, state.displacement.begin(), u);
+    const PointOperators<Element, Number> operators(x);
+    operators.gradients(u, H, h);
+    const auto volume_strain = [&](const int q) {
+      double sum = n_hoop > 0 ? n_hoop * lane(h[q], l) : 0.;
+      for (int i = 0; i < dim; ++i)
+        sum += lane(H[q][i][i], l);
+      return sum;
+    };
+    double mean = 0., volume = 0.;
+    for (int q = 0; q < n_nodes; ++q)
+      {
+        mean += lane(operators.weight[q], l) * volume_strain(q);
+        volume += lane(operators.weight[q], l);
+      }
+    mean /= volume;
+    std::vector<double> at_points(n_nodes * 7, 0.);
+    for (int q = 0; q < n_nodes; ++q)
+      {
+        double      *s     = &at_points[7 * q];
+        const double third = volume_strain(q) / 3.;
+        for (int k = 0; k < 3; ++k)
+          {
+            const double strain = k < dim ? lane(H[q][k][k], l) : (k < dim + n_hoop ? lane(h[q], l) : 0.);
+            s[k]                = law.bulk_modulus * mean + 2. * law.shear_modulus * (strain - third);
+          }
+        for (int i = 0; i < dim; ++i)
+          for (int j = i + 1; j < dim; ++j)
+            s[2 + i + j] = law.shear_modulus * (lane(H[q][i][j], l) + lane(H[q][j][i], l));
+        s[6] = law.density / (1. + mean);
+      }
+    points_to_nodes<Element>(at_points, 7, values);
+    return true;
+  }
+
   const LinearElastic              law;
   const dealii::types::material_id block;
   ElasticModuli                    moduli;
@@ -337,4 +398,13 @@ std::unique_ptr<InternalForce<dim>> make_elastic_force(const ElementChoice &elem
   (void)symmetry;
   return make_elastic_kernel<dim, 0, W>(element, law, block);
 }
+
+// Compiled once, in internal_force.cc.
+#define ARENITE_EXTERN(dim)                                                                  \
+  extern template std::unique_ptr<InternalForce<dim>> make_elastic_force<dim, native_lanes>( \
+    const ElementChoice &, const LinearElastic &, dealii::types::material_id, Symmetry);
+ARENITE_EXTERN(1)
+ARENITE_EXTERN(2)
+ARENITE_EXTERN(3)
+#undef ARENITE_EXTERN
 } // namespace Arenite

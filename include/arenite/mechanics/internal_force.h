@@ -8,6 +8,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -84,6 +85,13 @@ public:
   /// Room for what the block keeps in a state, at rest.
   virtual void reinit_state(BlockState &) const {}
 
+  /// Set an entry of the history at all points of each cell. @return false if the points have no such entry.
+  virtual bool set_history(BlockState &, const std::string & /*name*/,
+                           const std::function<double(unsigned int cell)> & /*value*/) const
+  {
+    return false;
+  }
+
   /// force += -integral of P : Grad N over the cells of @p part. Hanging entries receive forces like all others. What the block keeps is
   /// brought to state.step first if record.points.advances; viscous hourglass forces replace those of the last evaluation and add their
   /// power.
@@ -102,6 +110,9 @@ public:
   {
     return false;
   }
+
+  /// Whether point_values() knows more than the displacement says.
+  virtual bool gives_point_values() const { return stores_points(); }
 
   /// Of what point_values() gives after the stress, "name [unit]".
   virtual std::vector<std::string> names_of_point_values() const { return {}; }

@@ -7,6 +7,7 @@
 #include <arenite/mechanics/point_operators.h>
 #include <arenite/mechanics/present_shape.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Arenite
@@ -96,6 +97,24 @@ public:
         record.amplitude.resize(std::size_t(batches.size()) * n_amplitudes * W, 0.);
         points.hourglass.resize(batches.size() * W, 0.);
       }
+  }
+
+  bool set_history(BlockState &record, const std::string &name,
+                   const std::function<double(unsigned int cell)> &value) const override
+  {
+    const auto names    = law->history_names();
+    const auto position = std::find(names.begin(), names.end(), name);
+    if (position == names.end())
+      return false;
+    const std::size_t entry = position - names.begin();
+    for (unsigned int place = 0; place < batches.cells.size(); ++place)
+      if (batches.cells[place] != dealii::numbers::invalid_unsigned_int)
+        {
+          const double of_cell = value(batches.cells[place]);
+          for (int q = 0; q < n_points; ++q)
+            record.points.history[((place / W * n_points + q) * n_history + entry) * W + place % W] = of_cell;
+        }
+    return true;
   }
 
   void add(VectorType &force, const State<dim> &state, const CellPart part, BlockState &record) const override

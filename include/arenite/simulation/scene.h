@@ -12,6 +12,7 @@
 #include <arenite/mechanics/internal_force.h>
 #include <arenite/mechanics/point_motion.h>
 #include <arenite/mesh/geometry.h>
+#include <arenite/simulation/initial_energy.h>
 #include <arenite/simulation/initial_velocity.h>
 #include <arenite/time/stable_time_step.h>
 #include <arenite/verification/solution_choice.h>
@@ -53,6 +54,7 @@ struct Scene
   Constraints<dim>                          constraints;
   std::string                               initial_state = "rest";
   InitialVelocity<dim>                      initial_velocity;
+  InitialEnergy<dim>                        initial_energy;
   StableTimeStep<dim>                       time_step;
   MeshAdaptor<dim>                          adaptor;
   ReceiverSets<dim>                         receivers;

@@ -80,6 +80,7 @@ public:
   /// not have; false where the stress follows from the displacement.
   bool                     point_values(const State<dim> &, unsigned int cell, std::vector<double> &values) const;
   std::vector<std::string> names_of_point_values() const;
+  bool                     gives_point_values() const;
 
   /// Total mass of the modelled sector [kg].
   double total_mass() const;
