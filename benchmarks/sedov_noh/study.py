@@ -26,8 +26,8 @@ def both_lines(scene, receivers, form, cells, size, settings):
     """Runs with receivers along an edge and along the diagonal; the run and its two profiles."""
     result = []
     for direction in ("1, 0, 0", DIAGONAL[form])[:1 if form == "radius" else 2]:
-        run = study.run(scene, {**FORMS[form], **mesh(form, size, cells), **settings, "Receivers": profiles.NAME,
-                                **profiles.along(cells, size, interval=settings["End time"], direction=direction)}, repeat=1)
+        run = study.run(scene, {**FORMS[form], **mesh(form, size, cells), **settings,
+                                **profiles.along(receivers, cells, size, interval=settings["End time"], direction=direction)}, repeat=1)
         result.append(profiles.read(run, receivers, power=2))
     return run, result
 
@@ -81,7 +81,7 @@ def implosion(hoops, form, element, cells):
 def piston(element, skewed, cells=100):
     """Receivers along three lines of the mesh; the exact state is the same on all."""
     exact, end = GasPiston(5 / 3, 1., p0=2 / 3 * 1e-4), .6
-    settings = {**ELEMENTS[element], "Mesh/Cells": f"{cells}, {cells // 10}", "Element/Linear bulk viscosity": .3,
+    settings = {**ELEMENTS[element], "Mesh/Cells": f"{cells}, {cells // 10}",
                 "Receivers/line/Quantities": "displacement, velocity, stress, density", "Receivers/line/Interval": end,
                 "Receivers/line/Points": "; ".join(f"{x:.6g}, {y}, 0" for y in (.013, .051, .087) for x in numpy.linspace(.02, .98, 193))}
     if not skewed:
