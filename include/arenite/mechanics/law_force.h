@@ -445,9 +445,8 @@ private:
     operators.patterns(u, H, q);
     operators.patterns(step.u, step.H, dq);
     const double coefficient = element.hourglass_coefficient * law->density();
-    const double per_step    = dt > std::numeric_limits<double>::min() ? 1. / dt : 0.; // at rest nothing moves
     const Number scale =
-      viscous_hourglass ? Number(coefficient) * c * operators.pattern_viscosity() * Number(per_step)
+      viscous_hourglass ? Number(coefficient) * c * operators.pattern_viscosity() * Number(1. / dt)
                         : Number(coefficient) * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, points);
     Number work = Number(0.);
     for (int i = 0; i < dim; ++i)
