@@ -445,6 +445,8 @@ void Simulation<dim>::watch(const PointLimits<dim> &limits) const
   std::ostringstream message;
   message << "t = " << state.time << " s, step " << state.step << ", " << text << ".\nThe step is " << state.dt_last
           << " s. Lower 'Time stepping / Courant number', refine there, raise the bulk viscosity, or look at the load.";
+  if (scene.pictures.last_time() >= 0.)
+    message << " The last picture is that of t = " << scene.pictures.last_time() << " s.";
   throw PhysicsAlarm(message.str());
 }
 

@@ -391,7 +391,7 @@ private:
     inverse_step     = Arenite::max<Number>(inverse_step, Number(largest_rate * Number(1. / largest_volume_change)));
     Number hourglass = Number(0.);
     if constexpr (Element::has_hourglass_control)
-      hourglass = advance_hourglass(batch, operators, u, H, step, dt, record);
+      hourglass = advance_hourglass(batch, operators, u, H, step, dt_last, record);
     (void)u;
     for (int l = 0; l < batches.active[batch]; ++l)
       {
@@ -436,7 +436,7 @@ private:
   /// stress that the point carries, |s|/(2 G |e|), so that soil that flows is not held by its hourglass control; at least a hundredth.
   /// @return work of the step
   Number advance_hourglass(const unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
-                           const Number (&H)[n_points][dim][dim], const Increment &step, const double dt,
+                           const Number (&H)[n_points][dim][dim], const Increment &step, const double dt_last,
                            BlockState &record) const
   {
     PointData   &points = record.points;
@@ -446,8 +446,9 @@ private:
     operators.patterns(step.u, step.H, dq);
     const double coefficient = element.hourglass_coefficient * law->density();
     const Number scale =
-      viscous_hourglass ? Number(coefficient) * c * operators.pattern_viscosity() * Number(1. / dt)
-                        : Number(coefficient) * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, points);
+      viscous_hourglass
+        ? Number(coefficient) * c * operators.pattern_viscosity() * Number(dt_last > 0. ? 1. / dt_last : 0.)
+        : Number(coefficient) * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, points);
     Number work = Number(0.);
     for (int i = 0; i < dim; ++i)
       for (int a = 0; a < Element::n_patterns; ++a)
@@ -467,10 +468,15 @@ private:
     const double G = material().shear_modulus;
     if (G == 0.)
       return Number(0.01);
-    SymTensor<Number> e, stress;
+    SymTensor<Number> e, stress; // at finite strain Green's, which a rotation leaves alone
     for (int i = 0; i < dim; ++i)
       for (int j = i; j < dim; ++j)
-        e[Motion::index(i, j)] = Number(0.5) * (H[0][i][j] + H[0][j][i]);
+        {
+          Number sum = H[0][i][j] + H[0][j][i];
+          for (int k = 0; finite && k < dim; ++k)
+            sum += H[0][k][i] * H[0][k][j];
+          e[Motion::index(i, j)] = Number(0.5) * sum;
+        }
     for (int k = 0; k < 6; ++k)
       stress[k] = load<Number>(&points.stress[(std::size_t(batch) * 6 + k) * W]);
     const auto   s        = deviator(stress);
