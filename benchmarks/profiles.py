@@ -70,8 +70,7 @@ def read(run, name, row=-1, rest=None, power=0):
     space = [c for c in "xyzr" if f"{names[0]}.velocity_{c} [m/s]" in table]
     if space[-1] == "r":  # a radius, or a meridian plane with z second
         space = ["r"] + (["z"] if "z" in space else [])
-    n = places[-1] / X[-1]
-    n = [1.] if len(space) == 1 else ([n[0], n[2]] if space == ["r", "z"] else list(n[:len(space)]))
+    n = places[-1] / X[-1]  # in the coordinates of the mesh
 
     def column(quantity):
         return numpy.array([table[f"{name}.{quantity}"][row] for name in names])

@@ -13,7 +13,7 @@ FORMS = {"radius": {"Dimension": 1, "Symmetry": "spherical"},
          "octant": {"Dimension": 3, "Symmetry": "none", "Constraints/Symmetry planes": "x min, y min, z min"}}
 DIAGONAL = {"radius": "1, 0, 0", "meridian plane": "1, 0, 1", "octant": "1, 1, 1"}
 LADDERS = {"radius": study.choose((100, 200, 400, 800), quick=(50, 100)), "meridian plane": study.choose((30, 60, 120), quick=(20,)),
-           "octant": study.choose((20, 40), quick=(12,))}
+           "octant": study.choose((16, 32), quick=(12,))}
 orders = []
 
 
