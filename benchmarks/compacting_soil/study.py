@@ -54,7 +54,8 @@ for case, p in FINAL.items():
                                                             for name, key in (("v", "error"), ("p", "p_L1"), ("rho", "rho_L1"))}})
 
 ratchet = []
-for case, scene, soil, V in (("kinked, 20 MPa", "soil.prm", KINKED, KINKED.waves(20e6)[-1].up), ("kinked, 200 MPa", "soil.prm", KINKED, KINKED.waves(200e6)[-1].up),
+for case, scene, soil, V in (("kinked, 20 MPa", "soil.prm", KINKED, KINKED.waves(20e6)[-1].up),
+                             ("kinked, 200 MPa", "soil.prm", KINKED, KINKED.waves(200e6)[-1].up),
                              ("sand, 98 MPa", "sand.prm", SAND, 122.48)):
     for viscosity in VISCOSITIES:
         for cells in study.choose((400, 1600), quick=(200,)):

@@ -8,10 +8,11 @@ from reference import CASES, front
 
 study = common.Study(__file__)
 TRAVEL = study.choose((30,), quick=(12,))[0]  # widths of the front
+SUBSTEP = .02  # of the law; the usual 0.5 is a row of its own
 ELEMENTS = {name: tuning.ELEMENTS[name] for name in ("Q1, one point", "Q1, 2x2x2", "Q2")}
 
 
-def measure(case, element, per_width, travel=TRAVEL, viscosity=(0, 0)):
+def measure(case, element, per_width, travel=TRAVEL, viscosity=(0, 0), substep=SUBSTEP):
     """The front between half of the way and its end, on cells of width/per_width."""
     steady, data = front(case), CASES[case]
     width, cap, degree = steady.width(), steady.cap, ELEMENTS[element]["Element/Degree"]
@@ -23,8 +24,9 @@ def measure(case, element, per_width, travel=TRAVEL, viscosity=(0, 0)):
     run = study.run("front.prm", {
         **ELEMENTS[element], "Kinematics": "finite strain" if data["finite"] else "small strain", "Mesh/Upper corner": length,
         "Mesh/Cells": cells, "End time": end, "Materials/soil/Fluidity eta": cap.eta, "Materials/soil/Overstress exponent N": cap.N,
-        "Element/Linear bulk viscosity": viscosity[0], "Element/Quadratic bulk viscosity": viscosity[1],
-        "Constraints/x min/Amplitude": steady.V, "Constraints/x min/Rise time": ramp, **profiles.along("points", cells, length, parts=degree, interval=end / 2, quantities="displacement, velocity, stress")}, repeat=1)
+        "Materials/soil/Substep size": substep, "Element/Linear bulk viscosity": viscosity[0], "Element/Quadratic bulk viscosity": viscosity[1],
+        "Constraints/x min/Amplitude": steady.V, "Constraints/x min/Rise time": ramp,
+        **profiles.along("points", cells, length, parts=degree, interval=end / 2, quantities="displacement, velocity, stress")}, repeat=1)
     half, late = (profiles.read(run, "points", row=row, rest=cap.rho0) for row in (-2, -1))
     middle = (steady.ahead[2] + steady.V) / 2
     places = [one.crossing(one.v, middle) for one in (half, late)]
@@ -33,7 +35,8 @@ def measure(case, element, per_width, travel=TRAVEL, viscosity=(0, 0)):
     v, sigma = steady.at(xi)
     off = abs(late.v - v)[window] / steady.V
     plateau = (xi < -3 * width) & (xi > -8 * width)
-    return study.add(f"{case}, {element}" + (f", viscosity {viscosity[0]:g}, {viscosity[1]:g}" if any(viscosity) else ""), run,
+    return study.add(f"{case}, {element}" + (f", viscosity {viscosity[0]:g}, {viscosity[1]:g}" if any(viscosity) else "") +
+                     (f", substep {substep:g}" if substep != SUBSTEP else ""), run,
                      float(off.mean()), per_width=per_width, cells=cells,
                      speed=profiles.relative((places[1] - places[0]) / (late.time - half.time), data["U"]), v_max=float(off.max()),
                      sigma_max=float((abs(late.S + sigma)[window]).max() / abs(steady.sigma[-1])),
@@ -53,10 +56,15 @@ for case in study.choose(CASES, quick=("A", "B")):
 for viscosity in study.choose(((.06, 1.2),), quick=()):
     for case in CASES:
         measure(case, "Q1, one point", 20, viscosity=viscosity)
+for substep in study.choose((.5, .1), quick=(.5,)):
+    for case in study.choose(CASES, quick=("A",)):
+        for per_width in study.choose((10, 20, 40), quick=(10,)):
+            measure(case, "Q1, one point", per_width, substep=substep)
 
 table = common.markdown_table(orders)
 print("\n" + table, flush=True)
-study.finish(f"""Cells (degree x cells) per width of the front, between 10 and 90 % of its rise; {TRAVEL} widths of travel:
+study.finish(f"""Substep size {SUBSTEP} of the law, where nothing else is said. Cells (degree x cells) per width of the front,
+between 10 and 90 % of its rise; {TRAVEL} widths of travel:
 
 {table}
 
