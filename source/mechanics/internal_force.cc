@@ -38,7 +38,8 @@ void ElementChoice::declare_parameters(Parameters &parameters)
   parameters.add_quantity(
     "Linear bulk viscosity", linear_viscosity, "-", {0., 10., false, false},
     "b1 in q = rho l (b2^2 l |D| + b1 c) |D|, for blocks that are not linear elastic at small "
-    "strain. Damps the ringing behind shocks; larger values widen waves and lower the stable step.");
+    "strain. Damps the ringing behind shocks; larger values widen waves and lower the stable step. Soil that compacts "
+    "keeps the overshoot of its front for ever: give it 0.6, and 2 for the quadratic one.");
   parameters.add_quantity("Quadratic bulk viscosity", quadratic_viscosity, "-", {0., 10., false, false},
                           "b2: spreads strong shocks over a few cells. 0 with b1 = 0 switches the viscosity off.");
   parameters.add_flag("Bulk viscosity in expansion", viscosity_in_expansion,
