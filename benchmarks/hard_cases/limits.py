@@ -41,8 +41,8 @@ class Attempt:
 
 
 class Search:
-    """The largest factor of an entry, from the first of `factors` on, with which the error stays at most twice that of the automatic step,
-    or 1 % above it. good: that factor, energy:
+    """The largest factor of an entry, from the first of `factors` on, with which the error stays below 1.1 times that of the automatic
+    step plus 1 %. good: that factor, energy:
     the energy error there; beyond: what happens 3 % above it, exit code first."""
 
     def __init__(self, study, scene, settings, error, allowed, entry, unit, factors):
@@ -70,8 +70,8 @@ class Search:
             else:
                 bad, self.beyond = middle, words
         if self.beyond.startswith("0:"):  # wrong without a word up to where?
-            for k in range(1, 12):
-                factor = bad * 1.1 ** k
+            for k in range(1, 20):
+                factor = bad * 1.15 ** k
                 if factor > factors[-1]:
                     self.beyond += f", no alarm up to {common.text(factors[-1])}"
                     break
@@ -84,10 +84,11 @@ class Search:
 def limits_of(study, scene, settings, error, run):
     """Columns: the largest good Courant number, and the largest good fixed step over the smallest stable step of the automatic run."""
     usual = abs(error(run))
-    allowed = max(2. * usual, usual + .01)
+    allowed = 1.1 * usual + .01
     dt = series(run, "dt [s]", "statistics.csv")
-    smallest = float(dt[len(dt) // 20:-1].min()) / .9  # after the short steps of the start
+    start = int(numpy.argmax(dt[1:] < 1.05 * dt[:-1]))  # the first step is short, the next ones grow by a tenth
+    smallest = float(dt[start:].min()) / .9
     courant = Search(study, scene, settings, error, allowed, COURANT, 1., [.9, 1.1, 1.3, 1.6, 2.])
-    fixed = Search(study, scene, settings, error, allowed, FIXED, smallest, [.7, 1., 1.4, 2., 2.8, 4., 5.6, 8., 11.])
+    fixed = Search(study, scene, settings, error, allowed, FIXED, smallest, [.5, .7, 1., 1.4, 2., 2.8, 4., 5.6, 8.])
     return {"Courant number": courant.good, "energy error": courant.energy, "beyond": courant.beyond,
             "fixed step/limit": fixed.good, "energy error ": fixed.energy, "beyond it": fixed.beyond}

@@ -83,7 +83,7 @@ def bad_cells():
         def error(run):
             return max(abs(-series(run, f"p{i}.stress_xx [Pa]")[-1] / CLAY_PRESSURE - 1.) for i in range(1, n + 1))
         run = case(f"{name}, {dimension}-D, {element}", "cells.prm", {**settings, "Element/Type": element}, error, "Hugoniot: largest error of the plateau",
-                   search="bricks" not in name and "as long" not in name)
+                   search=name == "distorted" and dimension == 2)
         if run:
             S = numpy.array([-series(run, f"p{i}.stress_xx [Pa]")[-1] for i in range(1, n + 1)]) / CLAY_PRESSURE
             v = max(abs(series(run, f"p{i}.velocity_{c} [m/s]")[-1]) for i in range(1, n + 1) for c in "yz"[:dimension - 1]) / 200.
@@ -256,8 +256,8 @@ With the automatic step, errors against what is known:
 
 {cases}
 
-How far the step may be raised before the error is twice that of the automatic step, or 1 % more: the largest Courant number up to 2 and
-the largest fixed step over the smallest stable step of the automatic run, both within 3 %; what happens just beyond, exit code first:
+How far the step may be raised before the error is above 1.1 times that of the automatic step plus 1 %: the largest Courant number up to 2
+and the largest fixed step over the smallest stable step of the automatic run, both within 3 %; what happens just beyond, exit code first:
 
 {limits}
 
