@@ -61,7 +61,11 @@ std::string describe_blocks(const Dynamics<dim> &dynamics, const State<dim> &sta
       if (hourglass != 0.)
         text << "Hourglass  " << names[b] << ": " << factor * hourglass << " J, "
              << 100. * hourglass / (stored + law + viscous + hourglass) << " % of the block's energy; most "
-             << worst_cell(dynamics.discretization, own) << '\n';
+             << worst_cell(dynamics.discretization, own)
+             << (hourglass > 0.1 * (stored + law + viscous + hourglass)
+                   ? ". Too much: patterns rule the motion, refine or take 'Type = hexahedron'"
+                   : "")
+             << '\n';
     }
   return text.str();
 }

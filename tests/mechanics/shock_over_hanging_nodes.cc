@@ -96,8 +96,8 @@ Result hit_the_wall(const ElementChoice &choice, const bool refined)
 
 BOOST_AUTO_TEST_SUITE(shock_over_hanging_nodes)
 
-// The state behind is that of the jump relations on both sides of the edge, and little moves sideways: distorted cells of such a solid
-// are off by 15 to 22 % (benchmarks/hard_cases), hanging nodes must not be worse. The ledgers agree while the shock is in cells of both
+// The state behind is that of the jump relations on both sides of the edge, as well as without refinement, and little moves sideways
+// (measured 3.6 %; distorted cells of such a solid are off by 15 to 22 %, benchmarks/hard_cases). The ledgers agree while the shock is in cells of both
 // sizes. The strength of 1 MPa is 0.1 % of the pressure.
 BOOST_AUTO_TEST_CASE(oblique_edge, *label("parallel"))
 {
@@ -108,11 +108,11 @@ BOOST_AUTO_TEST_CASE(oblique_edge, *label("parallel"))
         BOOST_TEST_MESSAGE("degree " << degree << ", " << what << ": energy " << r.imbalance << ", transverse "
                                      << r.transverse << ", velocity " << r.velocity << ", stress " << r.stress);
       BOOST_TEST(plain.transverse < 1e-9);
-      BOOST_TEST(plain.stress < 0.04);
+      BOOST_TEST(plain.stress < 0.08); // ringing behind a front on 40 cells with the usual viscosity
       BOOST_TEST(refined.imbalance < 1e-3);
       BOOST_TEST(refined.transverse < 0.05);
-      BOOST_TEST(refined.velocity < 0.08);
-      BOOST_TEST(refined.stress < 0.15);
+      BOOST_TEST(refined.velocity < 0.06);
+      BOOST_TEST(refined.stress < 1.1 * plain.stress);
     }
 }
 

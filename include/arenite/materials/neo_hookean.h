@@ -69,12 +69,14 @@ struct NeoHookean
     const SymTensor<Number> &h = history.stretch;
     history.stretch            = X * Number(2.) + product(X, X) + h + symmetric_twice(X, h) + congruent(X, h);
 
-    const double     lambda = elastic.lame_lambda(), mu = elastic.shear_modulus;
-    const Number     J = Number(elastic.density) / increment.density, log_J = logarithm(J), per_J = Number(1.) / J;
+    const double lambda = elastic.lame_lambda(), mu = elastic.shear_modulus;
+    const Number J     = Number(elastic.density) / increment.density,
+                 log_J = logarithm_one_plus(Number((Number(elastic.density) - increment.density) / increment.density)),
+                 per_J = Number(1.) / J;
     Response<Number> response;
     response.stress = (history.stretch * Number(mu) + spherical(Number(Number(lambda) * log_J))) * per_J;
     response.stored =
-      (Number(0.5 * mu) * (trace(history.stretch) - Number(2.) * log_J) + Number(0.5 * lambda) * log_J * log_J) * per_J;
+      (Number(mu) * shape_energy(history.stretch, log_J) + Number(0.5 * lambda) * log_J * log_J) * per_J;
     const Number size   = square_root(Number(contract(history.stretch, history.stretch) + Number(1e-60)));
     response.wave_speed = square_root(Number(
       (Number(lambda) * (Number(1.) - log_J) + Number(mu) * (Number(2.) + size)) * Number(1. / elastic.density)));
@@ -97,6 +99,19 @@ struct NeoHookean
   double           largest_strain = 0.5; ///< end of the valid range, logarithmic
 
 private:
+  /// (tr h - 2 ln J)/2 with h = b - I. Its terms cancel in small strains: there the series of (tr h - ln det(I + h))/2, whose first
+  /// term that is left out is |h|^9.
+  template <typename Number>
+  static Number shape_energy(const SymTensor<Number> &h, const Number &log_J)
+  {
+    const SymTensor<Number> h2 = product(h, h), h3 = product(h2, h), h4 = product(h2, h2);
+    const Number series = Number(1. / 2.) * trace(h2) - Number(1. / 3.) * trace(h3) + Number(1. / 4.) * trace(h4) -
+                          Number(1. / 5.) * contract(h2, h3) + Number(1. / 6.) * contract(h3, h3) -
+                          Number(1. / 7.) * contract(h3, h4) + Number(1. / 8.) * contract(h4, h4);
+    return Number(0.5) *
+           Arenite::select<Number>(trace(h2) < Number(1e-4), series, Number(trace(h) - Number(2.) * log_J));
+  }
+
   template <typename Number>
   using Matrix = Number[3][3];
 

@@ -24,8 +24,9 @@ constexpr double largest_volume_change = 0.02;
 ///
 ///   q = rho l (b2^2 l |D| + b1 c) |D|   in compression (D = tr d < 0);   q = - rho l b1 c D in expansion where that is wanted
 ///
-/// with the length l of a cell, over its degree, in the direction of straining: l = |d|/|d A^T|, A = d xi/d x; uniaxial straining of a
-/// brick finds its side. The work -(q_n J_n + q J)/2 tr(d eps) per reference volume is what the nodal forces of q take out of the motion;
+/// with the length l of a cell, over its degree, in the direction of straining: l = |d|/|A d|, A = d xi/d x; uniaxial straining of a
+/// brick finds its side. The linear term takes sqrt(dim)/|A| where that is shorter: with l alone it would be steered by the smallest motions
+/// across slender cells, which it then excites. The work -(q_n J_n + q J)/2 tr(d eps) per reference volume is what the nodal forces of q take out of the motion;
 /// the law receives it as heat.
 ///
 /// Step: an element alone is stable up to dt with g (c^2 dt^2/4 + nu dt/2) = 1 for a viscosity nu (StableTimeStep has the reason): g =
@@ -310,10 +311,13 @@ private:
           {
             const Number c = load<Number>(&points.wave_speed[at]),
                          l = Number(Operators::length_of_unit) *
-                             Shape::length_along(m.strain, operators.metric[q], H[q], finite);
+                             Shape::length_along(m.strain, operators.metric[q], H[q], finite),
+                         shortest =
+                           Number(Operators::length_of_unit) * Shape::mean_length(operators.metric[q], H[q], finite);
             const auto   compression = D < Number(0.);
-            const Number linear = density[q] * l * Number(b1) * c, quadratic = density[q] * Number(b2 * b2) * l * l;
-            q_new = Arenite::select<Number>(compression, Number((quadratic * -D + linear) * -D),
+            const Number linear      = density[q] * Arenite::min<Number>(l, shortest) * Number(b1) * c,
+                         quadratic   = density[q] * Number(b2 * b2) * l * l;
+            q_new                    = Arenite::select<Number>(compression, Number((quadratic * -D + linear) * -D),
                                             Number(Number(element.viscosity_in_expansion ? -1. : 0.) * linear * D));
             viscosity[q] =
               (linear + Arenite::select<Number>(compression, Number(Number(-2.) * quadratic * D), Number(0.))) /
