@@ -63,8 +63,8 @@ struct NeoHookean
         power = product(power, e) * Number(1. / k);
         Z += power;
       }
-    const Number            m = trace(increment.strain) * Number(1. / 3.), g = exponential_minus_one(m);
-    const SymTensor<Number> X = Z * Number(g + Number(1.)) + spherical(g); // exp(d eps) - I
+    const Number m = trace(increment.strain) * Number(1. / 3.), g = m + exponential_remainder(m); // exp(m) - 1
+    const SymTensor<Number> X = Z * Number(g + Number(1.)) + spherical(g);                        // exp(d eps) - I
     // b' - I = (2 X + X X) + h + X h + h X + X h X
     const SymTensor<Number> &h = history.stretch;
     history.stretch            = X * Number(2.) + product(X, X) + h + symmetric_twice(X, h) + congruent(X, h);
