@@ -23,6 +23,9 @@ struct CellBatches
 
   unsigned int size() const { return part_begin[3]; }
 
+  /// batch W + lane of a cell, invalid if it is of another block.
+  unsigned int place(const unsigned int cell) const { return place_of_cell[cell]; }
+
   void reinit(const Discretization<dim> &discretization, const dealii::types::material_id block)
   {
     n_nodes = discretization.nodes_per_cell();
@@ -43,9 +46,15 @@ struct CellBatches
     part_begin[2] = active.size();
     append(discretization, half, lists[1].end());
     part_begin[3] = active.size();
+    place_of_cell.assign(discretization.cells().size(), dealii::numbers::invalid_unsigned_int);
+    for (unsigned int place = 0; place < cells.size(); ++place)
+      if (cells[place] != dealii::numbers::invalid_unsigned_int)
+        place_of_cell[cells[place]] = place;
   }
 
 private:
+  std::vector<unsigned int> place_of_cell;
+
   /// A node of the cell is owned elsewhere, or hangs on one that is.
   static bool needs_ghosts(const Discretization<dim> &discretization, const unsigned int cell)
   {

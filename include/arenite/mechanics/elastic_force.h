@@ -7,7 +7,6 @@
 
 #include <deal.II/base/exceptions.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace Arenite
@@ -310,8 +309,8 @@ private:
 
   bool stress_of_mean_dilatation(const State<dim> &state, const unsigned int cell, std::vector<double> &values) const
   {
-    const auto place = std::find(batches.cells.begin(), batches.cells.end(), cell) - batches.cells.begin();
-    if (place == std::ptrdiff_t(batches.cells.size()))
+    const unsigned int place = batches.place(cell);
+    if (place == dealii::numbers::invalid_unsigned_int)
       return false;
     const unsigned int batch = place / W, l = place % W;
     Number             x[dim][n_nodes], u[dim][n_nodes], H[n_nodes][dim][dim], h[n_nodes];

@@ -67,10 +67,6 @@ public:
     batches.reinit(discretization, block);
     elastic->reinit(discretization);
     as_fluid->reinit(discretization);
-    place_of_cell.assign(discretization.cells().size(), dealii::numbers::invalid_unsigned_int);
-    for (unsigned int place = 0; place < batches.cells.size(); ++place)
-      if (batches.cells[place] != dealii::numbers::invalid_unsigned_int)
-        place_of_cell[batches.cells[place]] = place;
     find_ratios(discretization);
   }
 
@@ -192,9 +188,10 @@ public:
   bool point_values(const State<dim> &state, const BlockState &record, const unsigned int cell,
                     std::vector<double> &values) const override
   {
-    if (place_of_cell[cell] == dealii::numbers::invalid_unsigned_int)
+    const unsigned int place = batches.place(cell);
+    if (place == dealii::numbers::invalid_unsigned_int)
       return false;
-    const unsigned int place = place_of_cell[cell], batch = place / W, lane_of_cell = place % W;
+    const unsigned int batch = place / W, lane_of_cell = place % W;
     const unsigned int n_values = 9 + n_history;
     const PointData   &points   = record.points;
     Number             x[dim][n_nodes], u[dim][n_nodes], H[n_points][dim][dim], h[n_points];
@@ -592,7 +589,6 @@ private:
   std::unique_ptr<InternalForce<dim>> elastic, as_fluid; ///< for mass, eigenvalues and forces without points
   const VectorType                   *positions = nullptr;
   CellBatches<dim, W>                 batches;
-  std::vector<unsigned int>           place_of_cell; ///< batch W + lane of a cell of the block
-  dealii::AlignedVector<double>       ratio;         ///< [batch][lane], r of the largest eigenvalue
+  dealii::AlignedVector<double>       ratio; ///< [batch][lane], r of the largest eigenvalue
 };
 } // namespace Arenite
