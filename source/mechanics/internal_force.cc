@@ -48,7 +48,9 @@ void ElementChoice::declare_parameters(Parameters &parameters)
 
 void KinematicsChoice::declare_parameters(Parameters &parameters)
 {
-  parameters.add_choice("Kinematics", kinematics, {"small strain", "finite strain"},
+  const std::vector<std::string> known{"small strain", "finite strain"};
+  kinematics = parameters.peek_choice("Kinematics", kinematics, known); // decides which entries blocks have
+  parameters.add_choice("Kinematics", kinematics, known,
                         "Strain measure. Finite strain: logarithmic increments on the deformed shape, Cauchy stress.");
   parameters.add_choice("Objective rate", rate, {"Jaumann", "Green-Naghdi"},
                         "How the stress turns at finite strain: with the spin, or with the polar rotation.");

@@ -27,8 +27,6 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
   parameters.add_choice("Symmetry", symmetry_name, symmetry_names(),
                         "What a mesh of fewer dimensions stands for: in two 'plane strain' or 'axisymmetric' (first "
                         "coordinate r, second z), in one 'plane wave' (uniaxial strain) or 'spherical' (r).");
-  const bool finite_strain =
-    parameters.peek_choice("Kinematics", "small strain", {"small strain", "finite strain"}) == "finite strain";
   kinematics.declare_parameters(parameters);
   parameters.add_quantity("End time", end_time, "s", positive, "The run starts at 0 and ends here.");
 
@@ -54,7 +52,7 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
         declare_law(parameters, block.law_name);
         parameters.add_integer("Material id", block.material_id, 0, 254,
                                "Id of the block's cells in the mesh; a single block takes all cells.");
-        if (block.law_name == "linear elastic" && !finite_strain)
+        if (block.law_name == "linear elastic" && !kinematics.finite_strain())
           {
             block.constants.declare_parameters(parameters);
             continue;
