@@ -12,14 +12,14 @@ VISCOSITIES = (.06, 1.2, "false"), (.06, 1.2, "true"), (.06, 4, "false"), (.3, 1
 ELEMENTS = {name: tuning.ELEMENTS[name] for name in ("Q1, one point", "Q1, 2x2x2")}
 
 
-def measure(scene, soil, V, element, cells, viscosity=VISCOSITIES[4]):
+def measure(scene, soil, V, element, cells, viscosity=VISCOSITIES[4], quantities="displacement, velocity, stress, density"):
     """A run until the fastest wave has come to 0.8 m: the run, its waves, profiles at half of the time and at the end."""
     waves = soil.behind_piston(V)
     end = .8 * LENGTH / waves[0].U
-    run = study.run(scene, {**ELEMENTS[element], "Mesh/Cells": cells, "Constraints/x min/Amplitude": V, "End time": end,
+    run = study.run(scene, {**tuning.ELEMENTS[element], "Mesh/Cells": cells // tuning.ELEMENTS[element]["Element/Degree"], "Constraints/x min/Amplitude": V, "End time": end,
                             "Element/Linear bulk viscosity": viscosity[0], "Element/Quadratic bulk viscosity": viscosity[1],
                             "Element/Bulk viscosity in expansion": viscosity[2],
-                            **profiles.along("points", cells, LENGTH, interval=end / 2)}, repeat=1)
+                            **profiles.along("points", cells, LENGTH, interval=end / 2, quantities=quantities)}, repeat=1)
     return run, waves, profiles.read(run, "points", row=-2), profiles.read(run, "points")
 
 
@@ -77,7 +77,21 @@ for rho, p, V, Us, *autodyn in study.choose(PUBLISHED, quick=PUBLISHED[4:5]):
                     for name, value, exact in zip(("rho", "p", "Us"), found, (wave.rho, wave.p / 1e6, wave.U))},
                  **{f"AUTODYN {name}": value for name, value in zip(("rho", "p", "Us"), autodyn)}})
 
-tables = common.markdown_table(orders), common.markdown_table(pipe), common.markdown_table(ratchet)
+overshoot = []
+for case, p in (("kinked, 20 MPa", 20e6), ("kinked, 200 MPa", 200e6)):
+    for element in tuning.ELEMENTS:
+        for viscosity in (VISCOSITIES[4], VISCOSITIES[0]):
+            for cells in study.choose((400, 1600), quick=(240,)):
+                run, waves, half, late = measure("soil.prm", KINKED, KINKED.waves(p)[-1].up, element, cells, viscosity,
+                                                 "displacement, velocity, stress, history")
+                wave, table = waves[-1], run.table("receivers-points.csv")
+                kept = numpy.array([column[-1] for name, column in table.items() if name.endswith("largest density")])
+                behind = kept[(late.X > .1 * wave.U * late.time) & (late.X < .8 * wave.U * late.time)] / wave.rho - 1
+                overshoot.append({"case": case, "element": element, "linear": viscosity[0], "quadratic": viscosity[1], "cells x degree": cells,
+                                  "kept too much, mean": behind.mean(), "largest": behind.max(),
+                                  "rho behind": profiles.relative(late.mean(late.rho, .1 * wave.U * late.time, .8 * wave.U * late.time), wave.rho)})
+
+tables = [common.markdown_table(rows) for rows in (orders, pipe, ratchet, overshoot)]
 print("\n" + "\n\n".join(tables), flush=True)
 study.finish(f"""Orders of the L1 errors over the present volume, linear and quadratic viscosity {VISCOSITIES[4][0]} and {VISCOSITIES[4][1]}:
 
@@ -90,5 +104,9 @@ Pipe of Sjobo sand, {'500 cells' if not study.quick else 'few cells'}; the publi
 What the bulk viscosity does to the states behind the last wave, relative to the exact ones:
 
 {tables[2]}
+
+Largest density that the points behind the last wave keep, over the exact one, less 1:
+
+{tables[3]}
 
 Columns p1, v1, rho1, U1: relative errors of plateau and speed of the first wave; p2 to U2 of the second.""", ylabel="L1 error of v")

@@ -16,17 +16,26 @@ LAWS = {"fused elastic": ("block.prm", "small strain"), "elastic, finite strain"
 STEPS = 100 if study.quick else 200
 
 rows, per_cell = [], {}
+
+
+def measure(form, element, law, cells=None, **more):
+    """STEPS steps of a block of n^dimension cells; the run and n."""
+    dimension, symmetry, cells_of_form = FORMS[form]
+    kind, degree, points = ELEMENTS[element]
+    scene, kinematics = LAWS[law]
+    n = (cells or cells_of_form) // degree
+    corner = (1 if symmetry == "spherical" else 0,) + (0,) * (dimension - 1)
+    step = 0.3 / n / degree**2 / 310.
+    settings = {"Dimension": dimension, "Symmetry": symmetry, "Kinematics": kinematics, "Element/Type": kind,
+                "Element/Degree": degree, "Mesh/Cells": ", ".join([str(n)] * dimension), "Mesh/Lower corner": ", ".join(map(str, corner)),
+                "Mesh/Upper corner": ", ".join(str(c + 1) for c in corner), "Time stepping/Fixed step": step, "End time": STEPS * step}
+    return study.run(scene, {**settings, **more.pop("settings", {})}, **more), n
+
+
 for form, (dimension, symmetry, cells) in FORMS.items():
     for element, (kind, degree, points) in ELEMENTS.items():
-        n = cells // degree
-        corner = (1 if symmetry == "spherical" else 0,) + (0,) * (dimension - 1)
-        step = 0.3 / n / degree**2 / 310.
-        for law, (scene, kinematics) in LAWS.items():
-            run = study.run(scene, {"Dimension": dimension, "Symmetry": symmetry, "Kinematics": kinematics, "Element/Type": kind,
-                                    "Element/Degree": degree, "Mesh/Cells": ", ".join([str(n)] * dimension),
-                                    "Mesh/Lower corner": ", ".join(map(str, corner)),
-                                    "Mesh/Upper corner": ", ".join(str(c + 1) for c in corner),
-                                    "Time stepping/Fixed step": step, "End time": STEPS * step})
+        for law in LAWS:
+            run, n = measure(form, element, law)
             ns = 1e9 * run.fastest / run["steps"]
             per_cell[form, element, law] = ns / n**dimension
             rows.append({"form": form, "element": element, "law": law, "ns per point": ns / (n * max(1, points))**dimension,
@@ -35,12 +44,27 @@ for form, (dimension, symmetry, cells) in FORMS.items():
                          "energy error": run["energy_error"], "spread": run.spread})
             print("  " + ", ".join(f"{name} {common.text(value)}" for name, value in rows[-1].items()), flush=True)
 
-table = common.markdown_table(rows)
+parts = []
+for form, cells in (("plane wave", 4096), ("axisymmetric", 64), ("space", 24)):
+    for element in ELEMENTS:
+        for ranks in (1, 2):
+            run, n = measure(form, element, "cap, finite strain", cells, ranks=ranks, repeat=1, settings={"Output/Cost of parts": "true"})
+            parts.append({"form": form, "element": element, "ranks": ranks,
+                          **{f"{name} [%]": round(100 * run["parts"][name] / run["core_seconds"], 1) for name in
+                             ("laws", "strain and nodal forces", "gather and scatter", "exchange", "loads", "step",
+                              "receivers, ledgers and the rest")}})
+            print("  " + ", ".join(f"{name} {common.text(value)}" for name, value in parts[-1].items()), flush=True)
+
+table, shares = common.markdown_table(rows), common.markdown_table(parts)
 gain = per_cell["space", "2 points a side", "cap, small strain"] / per_cell["space", "one-point", "cap, small strain"]
 words = (f"Nanoseconds of the whole step on one core, fastest of {study.repeat} runs of {STEPS} steps. In space a cell of one point is {gain:.1f} times "
          "cheaper with the cap than one of 2x2x2 points.")
-print(f"\n{table}\n\n{words}\n{study.disturbed}")
+shares = f"""Where the time goes, cap at finite strain, in % of the time loop (measuring costs some of it). Two ranks share the machine's memory and
+wait for each other in `exchange`:
+
+{shares}"""
+print(f"\n{table}\n\n{words}\n\n{shares}\n{study.disturbed}")
 if study.write:
     common.write_csv(study.folder / "results.csv", rows)
     facts = ", ".join(f"{name.replace('deal_ii', 'deal.II')} {value}" for name, value in common.machine(study.last).items())
-    common.report(study.name, f"## Cost of a law in a mesh\n\n{words}\n\n{table}\n\n*{facts}.* {study.disturbed}")
+    common.report(study.name, f"## Cost of a law in a mesh\n\n{words}\n\n{table}\n\n{shares}\n\n*{facts}.* {study.disturbed}")

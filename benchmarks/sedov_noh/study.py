@@ -58,7 +58,7 @@ def implosion(hoops, form, element, cells):
     exact, end = Noh(5 / 3, hoops), .6
     radius = {"radius": "x", "meridian plane": "sqrt(x^2+y^2)", "octant": "sqrt(x^2+y^2+z^2)"}[form]
     velocity = "; ".join(f"-{x}/({radius}+1e-30)" for x in "xyz"[:FORMS[form]["Dimension"]])
-    settings = {**ELEMENTS[element], "End time": end, "Time stepping/Largest step": .2 / cells, "Initial conditions/gas/Velocity": velocity}
+    settings = {**ELEMENTS[element], "End time": end, "Initial conditions/gas/Velocity": velocity}
     if hoops == 0:
         settings["Symmetry"] = "plane wave"
     if hoops == 1:  # a slice of the cylinder

@@ -53,8 +53,8 @@ public:
           text += "," + name + ".velocity_" + direction_letters(symmetry)[d] + " [m/s]";
         for (unsigned int k = 0; k < n_stress_components(dim) && quantities.stress; ++k)
           text += "," + name + ".stress_" + stress_component(symmetry, k) + " [Pa]";
-        if (quantities.density)
-          text += "," + name + ".density [kg/m^3]";
+        for (const std::string &scalar : quantities.scalars)
+          text += "," + name + "." + scalar;
       }
     text += "\n";
     flush();
@@ -78,8 +78,8 @@ public:
           put(row.velocity[point][d]);
         for (unsigned int k = 0; k < n_stress_components(dim) && quantities.stress; ++k)
           put(row.stress[point].access_raw_entry(k));
-        if (quantities.density)
-          put(row.density[point]);
+        for (std::size_t k = 0; k < quantities.scalars.size(); ++k)
+          put(row.scalars[point * quantities.scalars.size() + k]);
       }
     text += "\n";
   }
@@ -124,6 +124,12 @@ std::unique_ptr<ReceiverFile<dim>> make_receiver_table(const std::string        
                                                        const MPI_Comm communicator)
 {
   return std::make_unique<ReceiverTable<dim>>(file_name, names, quantities, symmetry, communicator);
+}
+
+std::pair<std::string, std::string> name_and_unit(const std::string &text)
+{
+  const std::size_t unit = text.find(" [");
+  return {text.substr(0, unit), unit == std::string::npos ? "" : text.substr(unit + 2, text.size() - unit - 3)};
 }
 
 std::string stress_component(const Symmetry symmetry, const unsigned int k)

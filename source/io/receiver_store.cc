@@ -271,8 +271,9 @@ public:
       plan("velocity", "m/s", dim, axes);
     if (quantities.stress)
       plan("stress", "Pa", n_stress, stresses);
-    if (quantities.density)
-      plan("density", "kg/m^3", 1, "");
+    for (const std::string &scalar : quantities.scalars)
+      plan(name_and_unit(scalar).first, name_and_unit(scalar).second, 1, "");
+    scalars.resize(quantities.scalars.size());
   }
 
   void add(const ReceiverRow<dim> &row) override
@@ -286,8 +287,8 @@ public:
           velocity.push_back(row.velocity[point][d]);
         for (unsigned int k = 0; k < n_stress && quantities.stress; ++k)
           stress.push_back(row.stress[point].access_raw_entry(k));
-        if (quantities.density)
-          density.push_back(row.density[point]);
+        for (std::size_t k = 0; k < scalars.size(); ++k)
+          scalars[k].push_back(row.scalars[point * scalars.size() + k]);
       }
   }
 
@@ -312,19 +313,21 @@ private:
     write_own("displacement", displacement, dim);
     write_own("velocity", velocity, dim);
     write_own("stress", stress, n_stress);
-    write_own("density", density, 1);
+    for (std::size_t k = 0; k < scalars.size(); ++k)
+      write_own(name_and_unit(quantities.scalars[k]).first, scalars[k], 1);
     time.clear();
     n_written += n;
     return problem;
   }
 
-  std::shared_ptr<ReceiverStore> store;
-  const std::string              set;
-  const ReceiverQuantities       quantities;
-  const unsigned int             rank;
-  const hsize_t                  first_point, n_own_points, n_rows;
-  hsize_t                        n_written = 0;
-  std::vector<double>            time, displacement, velocity, stress, density; ///< since the last flush
+  std::shared_ptr<ReceiverStore>   store;
+  const std::string                set;
+  const ReceiverQuantities         quantities;
+  const unsigned int               rank;
+  const hsize_t                    first_point, n_own_points, n_rows;
+  hsize_t                          n_written = 0;
+  std::vector<double>              time, displacement, velocity, stress; ///< since the last flush
+  std::vector<std::vector<double>> scalars;                              ///< as well, one after the other
 };
 } // namespace
 

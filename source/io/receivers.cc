@@ -32,7 +32,8 @@ void Receivers<dim>::declare_parameters(Parameters &parameters)
   points.declare_parameters(parameters);
   parameters.add_list(
     "Quantities", quantity_names,
-    "What is written: displacement [m], velocity [m/s], stress [Pa], tension positive, density [kg/m^3].");
+    "What is written: displacement [m], velocity [m/s], stress [Pa], tension positive, density [kg/m^3]; 'history' "
+    "stands for everything that points with a law of their own keep, density among it.");
   parameters.add_quantity("Interval", interval, "s", points.in_table() ? non_negative : positive,
                           "Time between two rows; a longer one gives smaller files and misses what happens between. "
                           "Zero writes every step, for Type = points only.");
@@ -44,7 +45,7 @@ template <int dim>
 void Receivers<dim>::finalize(const Parameters &parameters)
 {
   points.finalize(parameters);
-  const std::vector<std::string> known{"displacement", "velocity", "stress", "density"};
+  const std::vector<std::string> known{"displacement", "velocity", "stress", "density", "history"};
   for (const std::string &quantity : quantity_names)
     if (std::find(known.begin(), known.end(), quantity) == known.end())
       parameters.refuse(path + "/Quantities", "'" + quantity + "' cannot be recorded." + suggestion(quantity, known));
@@ -53,20 +54,27 @@ void Receivers<dim>::finalize(const Parameters &parameters)
   const auto wanted = [&](const std::string &quantity) {
     return std::find(quantity_names.begin(), quantity_names.end(), quantity) != quantity_names.end();
   };
-  quantities = {wanted("displacement"), wanted("velocity"), wanted("stress"), wanted("density")};
-  n_values   = dim + (quantities.stress ? n_stress_components(dim) : 0) + (quantities.density ? 1 : 0);
+  quantities   = {wanted("displacement"), wanted("velocity"), wanted("stress"), {}};
+  with_density = wanted("density");
+  with_history = wanted("history");
 }
 
 template <int dim>
 void Receivers<dim>::reinit(const Discretization<dim> &new_discretization, const MaterialOfBlock &material,
                             const StoredPointValues<dim> &new_stored_values)
 {
-  stored_values  = new_stored_values;
+  stored_values = new_stored_values;
+  quantities.scalars.clear();
+  if (with_history)
+    quantities.scalars = stored_values.names;
+  else if (with_density)
+    quantities.scalars = {stored_values.names.front()};
+  n_values       = dim + (quantities.stress ? n_stress_components(dim) : 0) + quantities.scalars.size();
   discretization = &new_discretization;
   fields         = std::make_unique<CellFields<dim>>(new_discretization);
   location.reinit(*fields, points.positions, points.names, "[Receivers / " + name + "]");
   materials.clear();
-  if (quantities.stress || quantities.density)
+  if (quantities.stress || !quantities.scalars.empty())
     for (const auto &contact : location.contacts)
       materials.push_back(material(new_discretization.cells()[contact.cell]->material_id()));
   velocity.reinit(0);
@@ -185,39 +193,40 @@ void Receivers<dim>::push(const Kind kind, const VectorType &field, const State<
       const Tensor<1, dim> u       = fields->value(field, contact.cell, contact.factors);
       for (unsigned int c = 0; c < dim; ++c)
         values[c] += contact.weight * u[c];
-      if (kind == Kind::row && (quantities.stress || quantities.density))
-        add_stress_and_density(i, u, state, values + dim);
+      if (kind == Kind::row && n_values > dim)
+        add_stored(i, u, state, values + dim);
     }
 }
 
 /// From what the points of the cell store, or from the gradient of the displacement.
 template <int dim>
-void Receivers<dim>::add_stress_and_density(const unsigned int i, const Tensor<1, dim> &u, const State<dim> &state,
-                                            double *values)
+void Receivers<dim>::add_stored(const unsigned int i, const Tensor<1, dim> &u, const State<dim> &state, double *values)
 {
-  const auto            &contact = location.contacts[i];
-  SymmetricTensor<2, 3>  stress;
-  double                 density;
-  constexpr unsigned int n_stress = n_stress_components(dim), density_column = 6;
-  if (stored_values && stored_values(state, contact.cell, values_of_cell))
+  const auto            &contact   = location.contacts[i];
+  constexpr unsigned int n_stress  = n_stress_components(dim);
+  const std::size_t      n_scalars = quantities.scalars.size();
+  if (stored_values.values && stored_values.values(state, contact.cell, values_of_cell))
     {
-      const std::size_t n = values_of_cell.size() / discretization->nodes_per_cell();
-      for (unsigned int k = 0; k < 6; ++k)
-        stress.access_raw_entry(k) = fields->interpolate(&values_of_cell[k], n, contact.factors);
-      density = fields->interpolate(&values_of_cell[density_column], n, contact.factors);
+      const std::size_t n     = values_of_cell.size() / discretization->nodes_per_cell();
+      const auto        value = [&](const std::size_t k) {
+        return contact.weight * fields->interpolate(&values_of_cell[k], n, contact.factors);
+      };
+      for (unsigned int k = 0; k < n_stress && quantities.stress; ++k)
+        *values++ += value(k);
+      for (std::size_t k = 0; k < n_scalars; ++k)
+        *values++ += value(6 + k);
     }
   else
     {
       const Tensor<2, dim> gradient =
         fields->reference_gradient(state.displacement, contact.cell, contact.factors) * contact.inverse_jacobian;
       const Tensor<2, 3> full = full_gradient(discretization->symmetry, gradient, u, location.positions[contact.point]);
-      stress                  = materials[i].stress(full);
-      density                 = materials[i].density / (1. + trace(full));
+      const SymmetricTensor<2, 3> stress = materials[i].stress(full);
+      for (unsigned int k = 0; k < n_stress && quantities.stress; ++k)
+        *values++ += contact.weight * stress.access_raw_entry(k);
+      if (n_scalars > 0)
+        *values += contact.weight * materials[i].density / (1. + trace(full)); // nothing else is stored
     }
-  for (unsigned int k = 0; k < n_stress && quantities.stress; ++k)
-    *values++ += contact.weight * stress.access_raw_entry(k);
-  if (quantities.density)
-    *values += contact.weight * density;
 }
 
 template <int dim>
@@ -273,15 +282,14 @@ void Receivers<dim>::process(const std::vector<double> &sums)
   for (const Header &header : headers)
     {
       row.stress.resize(quantities.stress ? n_own_points : 0);
-      row.density.resize(quantities.density ? n_own_points : 0);
+      row.scalars.clear();
       for (unsigned int point = 0; point < n_own_points; ++point, values += n_values)
         {
           for (unsigned int c = 0; c < dim; ++c)
             vectors[point][c] = values[c];
           for (unsigned int k = 0; k < n_stress_components(dim) && quantities.stress; ++k)
             row.stress[point].access_raw_entry(k) = values[dim + k];
-          if (quantities.density)
-            row.density[point] = values[n_values - 1];
+          row.scalars.insert(row.scalars.end(), values + n_values - quantities.scalars.size(), values + n_values);
         }
       if (header.kind == Kind::half_velocity)
         {

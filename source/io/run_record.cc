@@ -62,6 +62,8 @@ void RunRecord::write(const OutputDirectory &directory) const
       json["values"] = nlohmann::ordered_json::object();
       for (const auto &value : values)
         json["values"][value.first] = value.second;
+      if (!parts.empty())
+        json["parts"] = nlohmann::ordered_json(parts);
       // a title in another encoding must not cost the record of the run
       const std::string text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
       problem = replace_file(directory.file("run.json"), [&](std::ostream &file) { file << text << '\n'; });
@@ -90,6 +92,8 @@ void RunRecord::print_summary(Log &log, const OutputDirectory &directory) const
   row("set-up [core s]", "%.2f", setup_core_seconds);
   row("time loop [core s]", "%.2f", core_seconds);
   row("output [core s]", "%.2f", output_core_seconds);
+  for (const auto &part : parts)
+    row("  " + part.first + " [core s]", "%.3f", part.second);
   row("million unknowns per core second", "%.2f", mdofs_per_core_second());
   row("largest memory of a process [MB]", "%.0f", peak_memory_mb);
 

@@ -1,4 +1,5 @@
 #include <arenite/io/files.h>
+#include <arenite/io/receiver_file.h>
 #include <arenite/io/vtu_output.h>
 #include <arenite/mechanics/nodal_stress.h>
 
@@ -163,10 +164,9 @@ void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretizatio
   const unsigned int stored_row = out.n_rows();
   for (const std::string &name : stored.names)
     {
-      const std::size_t unit  = name.find(" [");
-      std::string       plain = name.substr(0, unit);
+      auto [plain, unit] = name_and_unit(name);
       std::replace(plain.begin(), plain.end(), ' ', '_');
-      out.add(plain, unit == std::string::npos ? "" : name.substr(unit + 2, name.size() - unit - 3), scalar, 1);
+      out.add(plain, unit, scalar, 1);
     }
   const unsigned int x_row = out.n_rows();
 

@@ -1,6 +1,7 @@
 #include <arenite/loads/constraints.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -273,6 +274,15 @@ double Constraints<dim>::power(const VectorType &half_velocity) const
   for (const auto &entry : exact_nodes)
     add(entry.first);
   return sum;
+}
+
+template <int dim>
+double Constraints<dim>::largest_speed(const double time) const
+{
+  double largest = 0.;
+  for (const auto &boundary : prescribed)
+    largest = std::max(largest, std::abs(boundary->history.value(time)));
+  return largest;
 }
 
 template <int dim>

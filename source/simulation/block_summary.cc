@@ -56,6 +56,9 @@ std::string describe_blocks(const Dynamics<dim> &dynamics, const State<dim> &sta
                    << " mean steps = " << tau / Utilities::MPI::min(shortest, communicator)
                    << " h/c of the smallest cell";
             }
+          const double parts = Utilities::MPI::max(state.blocks[b].points.substeps, communicator);
+          if (parts > 1.)
+            text << "; the law divided steps into up to " << parts << " parts";
           text << '\n';
         }
       if (hourglass != 0.)

@@ -86,6 +86,13 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
   receivers.declare_parameters(parameters);
   pictures.declare_parameters(parameters);
   statistics.declare_parameters(parameters);
+  {
+    const auto section = parameters.section("Output");
+    parameters.add_flag(
+      "Cost of parts", timed,
+      "Measure and print where the time goes: laws, other work in the cells, loads, the step, exchange "
+      "between processes. Costs some percent of it.");
+  }
   solution_choice.declare_parameters(parameters);
 }
 

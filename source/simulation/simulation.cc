@@ -5,8 +5,8 @@
 #include <arenite/simulation/resolution.h>
 #include <arenite/simulation/simulation.h>
 
+#include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -53,10 +53,13 @@ void Simulation<dim>::set_up()
     blocks.push_back(make_block(block));
   dynamics = std::make_unique<Dynamics<dim>>(discretization, std::move(blocks), std::move(scene.loads),
                                              scene.constraints, material_of_block());
+  if (scene.timed)
+    dynamics->cost.emplace();
   dynamics->reinit(state);
   scene.time_step.calibrate(*dynamics);
   scene.adaptor.schedule(*dynamics, 0.);
   set_initial_state();
+  scene.time_step.limit_first(std::max(fastest_node(), scene.constraints.largest_speed(0.)));
   initial_mass              = dynamics->total_mass();
   record.setup_core_seconds = core_seconds(start);
   describe();
@@ -73,6 +76,12 @@ std::unique_ptr<InternalForce<dim>> Simulation<dim>::make_block(Block &block) co
   if (scene.element.degree > 1 && !block.law->history_names().empty())
     log << "Warning    block '" << block.name << "' remembers what it went through, and elements of degree "
         << scene.element.degree << " overshoot at shocks, for good. Degree 1 does not.\n";
+  const auto names = block.law->history_names();
+  if (scene.element.linear_viscosity < 0.3 && std::find(names.begin(), names.end(), "largest density") != names.end())
+    log << "Warning    block '" << block.name
+        << "' keeps its largest density: where a front overshoots, which a linear bulk viscosity of "
+        << scene.element.linear_viscosity
+        << " does not prevent in a compacting soil, that stays. 0.6 with a quadratic one of 2 does.\n";
   return make_law_force<dim>(scene.element, scene.kinematics, std::move(block.law), id, scene.symmetry);
 }
 
@@ -128,6 +137,21 @@ void Simulation<dim>::set_initial_state()
   make_consistent(discretization, state.displacement); // the energy of the start needs ghosts and hanging nodes
 }
 
+/// Speed of the fastest node of all processes [m/s].
+template <int dim>
+double Simulation<dim>::fastest_node() const
+{
+  double largest = 0.;
+  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+    {
+      double square = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        square += std::pow(state.half_velocity.local_element(dim * node + c), 2);
+      largest = std::max(largest, square);
+    }
+  return std::sqrt(Utilities::MPI::max(largest, communicator));
+}
+
 template <int dim>
 void Simulation<dim>::describe() const
 {
@@ -175,9 +199,10 @@ void Simulation<dim>::reinit_receivers()
 {
   StoredPointValues<dim> stored;
   if (dynamics->gives_point_values())
-    stored = [this](const State<dim> &s, const unsigned int cell, std::vector<double> &values) {
-      return dynamics->point_values(s, cell, values);
-    };
+    stored = {[this](const State<dim> &s, const unsigned int cell, std::vector<double> &values) {
+                return dynamics->point_values(s, cell, values);
+              },
+              dynamics->names_of_point_values()};
   scene.receivers.reinit(discretization, material_of_block(), stored);
 }
 
@@ -282,6 +307,7 @@ void Simulation<dim>::run(const OutputDirectory &directory)
                                            *scene.exact_solution, state.time));
     }
   record_dissipation();
+  record_parts();
   if (n_adaptations > 0)
     log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
         << 100. * adaptation_seconds / record.core_seconds << " % of the run); the front met "
@@ -304,6 +330,33 @@ void Simulation<dim>::record_dissipation()
   log << describe_blocks(*dynamics, state, names, record.symmetry_factor);
 }
 
+/// Where the time of the steps went.
+template <int dim>
+void Simulation<dim>::record_parts()
+{
+  if (!dynamics->cost)
+    return;
+  const StepCost &cost = *dynamics->cost;
+  double          law = 0., scatter = 0.;
+  for (const BlockState &block : state.blocks)
+    {
+      law += block.points.law_seconds;
+      scatter += block.points.scatter_seconds;
+    }
+  std::vector<double> sums{law, scatter, cost.cells - law - scatter, cost.exchange, cost.loads, cost.update};
+  Utilities::MPI::sum(sums, communicator, sums);
+  record.parts = {{"laws", sums[0]},
+                  {"gather and scatter", sums[1]},
+                  {"strain and nodal forces", sums[2]},
+                  {"exchange", sums[3]},
+                  {"loads", sums[4]},
+                  {"step", sums[5]}};
+  double rest  = record.core_seconds;
+  for (const auto &part : record.parts)
+    rest -= part.second;
+  record.parts["receivers, ledgers and the rest"] = rest;
+}
+
 template <int dim>
 void Simulation<dim>::march(const OutputDirectory &directory)
 {
@@ -319,6 +372,8 @@ void Simulation<dim>::march(const OutputDirectory &directory)
           scene.time_step.follow(limits.stable_step);
         }
       double dt = last ? state.dt_last : scene.time_step.next(state.time, scene.end_time, state.dt_last);
+      if (!last)
+        watch_step(dt);
       dynamics->close_force(state, dt);
       if (!last && scene.adaptor.due(state.time) && adapt(dt))
         dt = scene.time_step.next(state.time, scene.end_time);
@@ -405,101 +460,6 @@ void Simulation<dim>::write_picture(const OutputDirectory &directory)
   scene.pictures.write(directory, discretization, state.displacement, dynamics->velocity(state), materials, state.time,
                        state.step, {}, stored);
   output_seconds += core_seconds(start);
-}
-
-/// A point that is inverted or not finite ends the run: with the cell, its place and its state.
-template <int dim>
-void Simulation<dim>::watch(const PointLimits<dim> &limits) const
-{
-  if (!limits.failed)
-    return;
-  std::string text;
-  if (static_cast<int>(Utilities::MPI::this_mpi_process(communicator)) == limits.failed_rank)
-    for (unsigned int b = 0; b < dynamics->blocks.size() && text.empty(); ++b)
-      {
-        const PointData &points = state.blocks[b].points;
-        if (points.failed_cell == std::numeric_limits<unsigned int>::max())
-          continue;
-        std::vector<double> values;
-        dynamics->blocks[b]->point_values(state, state.blocks[b], points.failed_cell, values);
-        const auto         names = dynamics->blocks[b]->names_of_point_values();
-        const std::size_t  n     = 6 + names.size();
-        const double      *v     = &values[0];
-        std::ostringstream message;
-        message << "cell " << discretization.cells()[points.failed_cell]->id() << " around ("
-                << discretization.cells()[points.failed_cell]->center() << "), block '" << scene.blocks[b].name
-                << "': ";
-        bool inverted = false;
-        for (std::size_t node = 0; node * n < values.size(); ++node)
-          inverted = inverted || !(values[node * n + 6] > 0.);
-        message << (inverted ? "the cell is inverted (J <= 0)" : "a value is not a number")
-                << ".\nAt its first node: stress";
-        for (unsigned int k = 0; k < 6; ++k)
-          message << ' ' << v[k];
-        message << " Pa";
-        for (std::size_t k = 0; k < names.size(); ++k)
-          message << ", " << names[k] << ' ' << v[6 + k];
-        text = message.str();
-      }
-  text = Utilities::MPI::broadcast(communicator, text, limits.failed_rank);
-  std::ostringstream message;
-  message << "t = " << state.time << " s, step " << state.step << ", " << text << ".\nThe step is " << state.dt_last
-          << " s. Lower 'Time stepping / Courant number', refine there, raise the bulk viscosity, or look at the load.";
-  if (scene.pictures.last_time() >= 0.)
-    message << " The last picture is that of t = " << scene.pictures.last_time() << " s.";
-  throw PhysicsAlarm(message.str());
-}
-
-/// Stop a run whose state left physics: with the time, the place and the likely cause.
-template <int dim>
-void Simulation<dim>::watch(const EnergyReport &report)
-{
-  double input = report.initial;
-  for (const auto &account : report.work)
-    input += std::abs(account.second);
-  const double       stored = report.strain + report.hourglass;
-  const bool         finite = std::isfinite(report.kinetic) && std::isfinite(stored);
-  std::ostringstream reason;
-  if (!finite)
-    reason << "the state is not a number any more";
-  // the leapfrog kinetic energy of a mode near the limit may be negative, but below it the sum never is, and the strain energy stays
-  // below the sum over 1 - (omega dt/2)^2
-  else if (stored > 1e3 * input && input > 0.)
-    reason << "the strain energy grew to " << stored << " J from " << input
-           << " J of work, the sign of a step above the stability limit";
-  else if (report.kinetic + stored > 10. * input && input > 0.)
-    reason << "the energy grew to " << report.kinetic + stored << " J from " << input << " J of work";
-  else if (std::abs(report.imbalance()) > 0.1 * report.scale() && report.scale() > 0.)
-    reason << "the energy balance is off by " << 100. * report.imbalance() / report.scale() << " %";
-  else
-    return;
-
-  // where: the node with a value that is not finite, else the fastest one
-  double       worst = -1.;
-  unsigned int where = 0;
-  for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
-    {
-      double speed = 0.;
-      for (unsigned int c = 0; c < dim; ++c)
-        speed += std::pow(state.half_velocity.local_element(dim * node + c), 2);
-      if (!std::isfinite(speed))
-        speed = std::numeric_limits<double>::max();
-      if (speed > worst)
-        {
-          worst = speed;
-          where = node;
-        }
-    }
-  const auto winner = Utilities::MPI::min_max_avg(worst, communicator);
-  Point<dim> place  = worst >= 0. ? discretization.position(where) : Point<dim>();
-  place             = Utilities::MPI::broadcast(communicator, place, winner.max_index);
-  std::ostringstream message;
-  message << "t = " << report.time << " s, step " << state.step << ", near (" << place << "): " << reason.str()
-          << ".\nThe step is " << state.dt_last << " s, the stable limit " << scene.time_step.limit()
-          << " s. Lower 'Time stepping / Courant number'"
-          << (state.dt_last > scene.time_step.limit() ? " or remove 'Fixed step'" : "")
-          << ", and look at the mesh at that place.";
-  throw PhysicsAlarm(message.str());
 }
 
 template class Simulation<1>;

@@ -1,3 +1,4 @@
+#include <arenite/base/stopwatch.h>
 #include <arenite/time/dynamics.h>
 
 #include <algorithm>
@@ -20,8 +21,6 @@ bool begin_step(PointData &points, const unsigned int step)
       points.step          = step;
       points.stored_energy = 0.;
       points.stable_step   = std::numeric_limits<double>::infinity();
-      points.volume_rate   = 0.;
-      points.substeps      = 1.;
     }
   return points.advances;
 }
@@ -58,6 +57,7 @@ void Dynamics<dim>::reinit(State<dim> &state)
       block->add_mass(nodal.partial);
       state.blocks.emplace_back();
       block->reinit_state(state.blocks.back());
+      state.blocks.back().points.is_timed = cost.has_value();
       if (state.blocks.back().points.stores_points)
         state.last_displacement = discretization.new_vector();
     }
@@ -82,6 +82,7 @@ template <int dim>
 void Dynamics<dim>::compute_force(State<dim> &state, const bool overlap)
 {
   compute_internal_force(state, overlap);
+  const Stopwatch watch(cost ? &cost->loads : nullptr);
   for (const auto &load : loads)
     load->add(state.force, state);
 }
@@ -92,6 +93,7 @@ void Dynamics<dim>::compute_internal_force(State<dim> &state, const bool overlap
   const HangingNodes &hanging = discretization.hanging;
   VectorType         &u = state.displacement, &f = state.force;
   const auto          add = [&](const CellPart part) {
+    const Stopwatch watch(cost ? &cost->cells : nullptr);
     for (unsigned int b = 0; b < blocks.size(); ++b)
       blocks[b]->add(f, state, part, state.blocks[b]);
   };
@@ -103,28 +105,39 @@ void Dynamics<dim>::compute_internal_force(State<dim> &state, const bool overlap
       record.power = 0.;
       advances |= begin_step(record.points, state.step);
     }
-  for (const auto &block : blocks)
-    if (block->uses_velocity())
-      {
-        make_consistent(discretization, state.half_velocity);
-        break;
-      }
-  hanging.interpolate<dim>(u.begin(), 0, hanging.n_local);
-  u.update_ghost_values_start();
+  double *const exchange = cost ? &cost->exchange : nullptr;
+  {
+    const Stopwatch watch(exchange);
+    for (const auto &block : blocks)
+      if (block->uses_velocity())
+        {
+          make_consistent(discretization, state.half_velocity);
+          break;
+        }
+    hanging.interpolate<dim>(u.begin(), 0, hanging.n_local);
+    u.update_ghost_values_start();
+  }
   if (overlap)
     add(CellPart::inner_first);
-  u.update_ghost_values_finish();
-  hanging.interpolate<dim>(u.begin(), hanging.n_local, hanging.size());
+  {
+    const Stopwatch watch(exchange);
+    u.update_ghost_values_finish();
+    hanging.interpolate<dim>(u.begin(), hanging.n_local, hanging.size());
+  }
   add(CellPart::boundary);
   if (!overlap)
     {
       add(CellPart::inner_first);
       add(CellPart::inner_second);
     }
-  hanging.condense<dim>(f.begin());
-  f.compress_start(0, VectorOperation::add);
+  {
+    const Stopwatch watch(exchange);
+    hanging.condense<dim>(f.begin());
+    f.compress_start(0, VectorOperation::add);
+  }
   if (overlap)
     add(CellPart::inner_second);
+  const Stopwatch watch(exchange);
   f.compress_finish(VectorOperation::add);
   hanging.condense<dim>(f.begin()); // what inner_second left at hanging nodes; the others are zero by now
   if (advances)
@@ -149,7 +162,8 @@ void Dynamics<dim>::book_work(const State<dim> &state, const double half_step)
 template <int dim>
 void Dynamics<dim>::close_force(State<dim> &state, const double dt, const bool book_first_half)
 {
-  const double mean = 0.5 * (state.dt_last + dt);
+  const Stopwatch watch(cost ? &cost->update : nullptr);
+  const double    mean = 0.5 * (state.dt_last + dt);
   damping.apply(state, mean);
   constraints.apply(state, dt, mean);
   if (!book_first_half)
@@ -183,8 +197,9 @@ double Dynamics<dim>::total_energy(const State<dim> &state, const double dt) con
 template <int dim>
 double Dynamics<dim>::advance(State<dim> &state, const double dt)
 {
-  const double mean        = 0.5 * (state.dt_last + dt);
-  const double power_after = central_difference(state, dt, mean);
+  const Stopwatch watch(cost ? &cost->update : nullptr);
+  const double    mean        = 0.5 * (state.dt_last + dt);
+  const double    power_after = central_difference(state, dt, mean);
   book_work(state, 0.5 * dt);
   balance.add_step_change(0.5 * (mean - dt) * power_after);
   for (const auto &load : loads)
@@ -208,28 +223,25 @@ bool Dynamics<dim>::stores_points() const
 }
 
 template <int dim>
-PointLimits<dim> Dynamics<dim>::point_limits(const State<dim> &state) const
+PointLimits<dim> Dynamics<dim>::point_limits(const State<dim> &state)
 {
-  // the smallest of (step, -volume rate, -substeps, rank with a failure) in one message
+  // the smallest of (step, rank with a failure) in one message
+  const Stopwatch     watch(cost ? &cost->exchange : nullptr);
   const int           rank = Utilities::MPI::this_mpi_process(discretization.communicator);
-  std::vector<double> least{std::numeric_limits<double>::infinity(), 0., -1., std::numeric_limits<double>::infinity()};
+  std::vector<double> least(2, std::numeric_limits<double>::infinity());
   for (const BlockState &record : state.blocks)
     {
       const PointData &points = record.points;
       // a step that is not a number comes with a failure
       least[0] = std::min(least[0], std::isnan(points.stable_step) ? 0. : points.stable_step);
-      least[1] = std::min(least[1], -points.volume_rate);
-      least[2] = std::min(least[2], -points.substeps);
       if (points.failed_cell != std::numeric_limits<unsigned int>::max())
-        least[3] = rank;
+        least[1] = rank;
     }
   Utilities::MPI::min(least, discretization.communicator, least);
   PointLimits<dim> limits;
   limits.stable_step = least[0];
-  limits.volume_rate = -least[1];
-  limits.substeps    = -least[2];
-  limits.failed      = std::isfinite(least[3]);
-  limits.failed_rank = limits.failed ? static_cast<int>(least[3]) : -1;
+  limits.failed      = std::isfinite(least[1]);
+  limits.failed_rank = limits.failed ? static_cast<int>(least[1]) : -1;
   return limits;
 }
 

@@ -23,10 +23,13 @@ void StableTimeStep<dim>::declare_parameters(Parameters &parameters)
   parameters.add_quantity(
     "First step", first, "s", non_negative,
     "Where materials have memory or strains are finite; 0 takes a hundredth of the stable step, because the load may "
-    "start with a jump.");
+    "start with a jump, and less where what moves would cross a hundredth of a cell.");
   parameters.add_quantity("Largest growth", growth, "-", {1., 10., true, false},
                           "Where materials have memory or strains are finite: of a step over the last one.");
   parameters.add_quantity("Largest step", largest, "s", non_negative, "Upper limit, for accuracy in time; 0 for none.");
+  parameters.add_quantity("Smallest step", least, "s", non_negative,
+                          "Where materials have memory or strains are finite: a run that needs shorter ones ends with "
+                          "a message; 0 takes a hundred-millionth of the end time.");
 }
 
 template <int dim>
@@ -138,6 +141,7 @@ double StableTimeStep<dim>::element_bound(const Dynamics<dim> &dynamics, const b
     }
   const MPI_Comm communicator = dynamics.discretization.communicator;
   const auto     winner       = Utilities::MPI::min_max_avg(largest_of_process, communicator);
+  largest_inverse_size        = std::sqrt(Utilities::MPI::max(size.linfty_norm(), communicator));
   place                       = Point<dim>();
   if (!cells.empty() && Utilities::MPI::this_mpi_process(communicator) == winner.max_index)
     {
@@ -216,6 +220,13 @@ void StableTimeStep<dim>::update(Dynamics<dim> &dynamics)
 }
 
 template <int dim>
+void StableTimeStep<dim>::limit_first(const double speed)
+{
+  // |tr D| of a cell between a side that rests and one that moves is speed/h, and |J^-1| = 2/h
+  first_by_motion = largest_volume_change / (largest_inverse_size * speed);
+}
+
+template <int dim>
 double StableTimeStep<dim>::usual() const
 {
   const double dt = fixed > 0. ? fixed : courant * limit();
@@ -231,7 +242,7 @@ double StableTimeStep<dim>::next(const double time, const double end_time, const
       if (dt_last > 0.)
         dt = std::min(dt, growth * dt_last);
       else // nobody knows yet what a piston or a jump of velocities does
-        dt = first > 0. ? std::min(dt, first) : 0.01 * dt;
+        dt = std::min(dt, first > 0. ? first : std::min(0.01 * dt, first_by_motion));
     }
   const double left = end_time - time;
   return left / std::max(1., std::ceil(left / dt * (1. - 1e-12)));

@@ -79,7 +79,7 @@ def difference(a, b):
 
 
 def main(arenite, scene):
-    scene = Path(scene).resolve()
+    arenite, scene = Path(arenite).resolve(), Path(scene).resolve()
     wanted = directives(scene)
     unknown = set(wanted) - {"RANKS", "CHECK", "SAME", "ARGS", "EXIT", "COMMAND", "LABEL", "TIMEOUT"}
     if unknown:

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Arenite
@@ -16,7 +17,8 @@ namespace Arenite
 /// What a set of receivers writes; the displacement is always measured, because the velocity follows from it.
 struct ReceiverQuantities
 {
-  bool displacement = false, velocity = false, stress = false, density = false;
+  bool                     displacement = false, velocity = false, stress = false;
+  std::vector<std::string> scalars; ///< with units: what points store, density first
 };
 
 /// Points of a set at one time.
@@ -26,7 +28,7 @@ struct ReceiverRow
   double                                     time = 0.;
   std::vector<dealii::Tensor<1, dim>>        displacement, velocity;
   std::vector<dealii::SymmetricTensor<2, 3>> stress;  ///< empty if not wanted
-  std::vector<double>                        density; ///< [kg/m^3], empty if not wanted
+  std::vector<double>                        scalars; ///< [point][scalar]
 };
 
 /// Destination of completed rows. Each process adds the points of a range; flush() writes what was added since the last time.
@@ -62,6 +64,9 @@ std::unique_ptr<ReceiverFile<dim>> make_receiver_table(const std::string        
 
 /// Write a small text file from process 0; raises OutputError on all processes.
 void write_text_file(const std::string &file_name, const std::string &text, MPI_Comm);
+
+/// "density [kg/m^3]" -> "density", "kg/m^3"; without a unit the second is empty.
+std::pair<std::string, std::string> name_and_unit(const std::string &);
 
 /// "xx", "xy" ... of component @p k of a stress tensor.
 std::string stress_component(Symmetry, unsigned int k);

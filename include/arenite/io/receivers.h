@@ -7,11 +7,15 @@
 
 namespace Arenite
 {
-/// InternalForce::point_values() of an owned cell of any block; without it all stresses follow from displacements.
+/// InternalForce::point_values() of an owned cell of any block, and their names; without it all stresses follow from displacements.
 template <int dim>
-using StoredPointValues = std::function<bool(const State<dim> &, unsigned int cell, std::vector<double> &values)>;
+struct StoredPointValues
+{
+  std::function<bool(const State<dim> &, unsigned int cell, std::vector<double> &values)> values;
+  std::vector<std::string>                                                                names{"density [kg/m^3]"};
+};
 
-/// One set of receivers: displacement, velocity and stress at fixed material points over the time of a run.
+/// One set of receivers: displacement, velocity, stress and what points store at fixed material points over the time of a run.
 ///
 /// Values are means over all cells that touch a point, so they do not depend on the partition; displacements are continuous
 /// anyway. Each process adds up what its cells contribute; the sum over processes is only formed when the buffer is full, and so
@@ -71,11 +75,10 @@ private:
     double       time, dt;
   };
 
-  bool                due(const State<dim> &);
-  void                push(Kind, const VectorType &, const State<dim> &);
-  void                add_stress_and_density(unsigned int contact, const dealii::Tensor<1, dim> &u, const State<dim> &,
-                                             double *values);
-  void                flush();
+  bool due(const State<dim> &);
+  void push(Kind, const VectorType &, const State<dim> &);
+  void add_stored(unsigned int contact, const dealii::Tensor<1, dim> &u, const State<dim> &, double *values);
+  void flush();
   std::vector<double> sums_of_own_points() const;
   void                process(const std::vector<double> &sums);
   void                emit(const ReceiverRow<dim> &);
@@ -94,9 +97,10 @@ private:
   std::vector<LinearElastic>       materials; ///< per contact
   StoredPointValues<dim>           stored_values;
   std::vector<double>              values_of_cell;
+  bool                             with_density = false, with_history = false;
   VectorType                       velocity; ///< consistent copy of v_{n-1/2}
 
-  // buffer of partial sums: [header][point][u, stress]
+  // buffer of partial sums: [header][point][u, stress, scalars]
   std::vector<Header> headers;
   std::vector<double> buffer;
   unsigned int        n_values = 0, capacity = 0;

@@ -36,6 +36,9 @@ struct RunRecord
   /// "<receiver set>.<quantity>.rms|peak": what runs without an exact solution are compared by
   std::map<std::string, double> values;
 
+  /// Core-seconds of the parts of the step, if they were measured.
+  std::map<std::string, double> parts;
+
   double peak_memory_mb = 0., total_memory_mb = 0.; ///< largest process, and all together; see measure_memory()
 
   /// Largest memory in use so far by one process, and the sum over all [MB]. Collective.

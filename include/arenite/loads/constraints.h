@@ -42,6 +42,9 @@ public:
   /// D -> P D P at constrained nodes.
   void project(DampingBlocks<dim> &) const;
 
+  /// Largest prescribed speed at a time [m/s].
+  double largest_speed(double time) const;
+
   bool follows_exact_solution() const { return !exact.empty(); }
 
   /// Boundaries that follow an exact solution (verification scenes).

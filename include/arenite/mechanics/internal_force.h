@@ -31,6 +31,10 @@ struct ElementChoice
   void finalize(const Parameters &);
 };
 
+/// Largest change of volume of a point in one step, where laws are updated; the next step is shortened when the present rate would
+/// exceed it.
+constexpr double largest_volume_change = 0.02;
+
 /// Cells are visited in three parts, so that messages travel while cells without ghost nodes are computed.
 enum class CellPart : unsigned int
 {

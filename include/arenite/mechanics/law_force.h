@@ -1,5 +1,6 @@
 #pragma once
 
+#include <arenite/base/stopwatch.h>
 #include <arenite/materials/batch_law.h>
 #include <arenite/mechanics/cell_batches.h>
 #include <arenite/mechanics/internal_force.h>
@@ -12,9 +13,6 @@
 
 namespace Arenite
 {
-/// Largest change of volume in one step; the next step is shortened when the present rate would exceed it.
-constexpr double largest_volume_change = 0.02;
-
 /// Forces of a block whose law has memory, or whose strains are finite. The stress of a step comes from the increment of the displacement
 /// since the last one:
 ///
@@ -121,17 +119,22 @@ public:
         elastic->add(force, state, part, record);
         return;
       }
-    const auto p = static_cast<unsigned int>(part);
+    const auto    p       = static_cast<unsigned int>(part);
+    double *const scatter = record.points.is_timed ? &record.points.scatter_seconds : nullptr;
     for (unsigned int batch = batches.part_begin[p]; batch < batches.part_begin[p + 1]; ++batch)
       {
         Number    x[dim][n_nodes], u[dim][n_nodes], H[n_points][dim][dim], h[n_points];
         Increment step;
-        gather<dim, W, n_nodes>(positions->begin(), entries(batch), x);
-        gather<dim, W, n_nodes>(state.displacement.begin(), entries(batch), u);
+        {
+          const Stopwatch watch(scatter);
+          gather<dim, W, n_nodes>(positions->begin(), entries(batch), x);
+          gather<dim, W, n_nodes>(state.displacement.begin(), entries(batch), u);
+          if (record.points.advances)
+            gather<dim, W, n_nodes>(state.last_displacement.begin(), entries(batch), step.u);
+        }
         const Operators operators(x);
         if (record.points.advances)
           {
-            gather<dim, W, n_nodes>(state.last_displacement.begin(), entries(batch), step.u);
             for (int c = 0; c < dim; ++c)
               for (int n = 0; n < n_nodes; ++n)
                 step.u[c][n] = u[c][n] - step.u[c][n];
@@ -141,6 +144,7 @@ public:
         if (record.points.advances)
           advance(batch, operators, u, H, h, step, state.dt_last, record);
         integrate(batch, operators, H, h, record, u);
+        const Stopwatch watch(scatter);
         scatter_add<dim, W, n_nodes>(force.begin(), entries(batch), u, batches.active[batch]);
       }
   }
@@ -285,7 +289,7 @@ private:
 
     // kinematics, viscosity
     Number strain[n_points][6], density_old[n_points], density[n_points], heat[n_points], stored_old[n_points],
-      dissipated[n_points], viscous_work[n_points];
+      dissipated[n_points], viscous_work[n_points], size[n_points]; // |A|^2
     const double rho_0 = law->density(), b1 = element.linear_viscosity, b2 = element.quadratic_viscosity;
     Number       largest_rate = Number(0.), viscosity[n_points];
     for (int q = 0; q < n_points; ++q)
@@ -301,16 +305,17 @@ private:
         density_old[q] = Number(rho_0) / J_old;
         largest_rate   = Arenite::max<Number>(largest_rate, Arenite::absolute<Number>(D));
 
+        Number A[dim][dim];
+        Shape::metric(operators.metric[q], H[q], finite, A);
+        size[q]            = Shape::square_norm(A);
         const Number q_old = load<Number>(&points.bulk_viscosity[at]);
         Number       q_new = Number(0.);
         viscosity[q]       = Number(0.);
         if ((b1 > 0. || b2 > 0.) && dt_last > 0.)
           {
-            const Number c = load<Number>(&points.wave_speed[at]),
-                         l = Number(Operators::length_of_unit) *
-                             Shape::length_along(m.strain, operators.metric[q], H[q], finite),
-                         shortest =
-                           Number(Operators::length_of_unit) * Shape::mean_length(operators.metric[q], H[q], finite);
+            const Number c           = load<Number>(&points.wave_speed[at]),
+                         l           = Number(Operators::length_of_unit) * Shape::length_along(m.strain, A),
+                         shortest    = Number(Operators::length_of_unit) * Shape::mean_length(A);
             const auto   compression = D < Number(0.);
             const Number linear      = density[q] * Arenite::min<Number>(l, shortest) * Number(b1) * c,
                          quadratic   = density[q] * Number(b2 * b2) * l * l;
@@ -345,7 +350,10 @@ private:
     law_batch.wave_speed  = &points.wave_speed[first * W];
     law_batch.stored      = &points.stored[first * W];
     law_batch.dissipated  = reinterpret_cast<double *>(dissipated);
-    law->update(law_batch);
+    {
+      const Stopwatch watch(points.is_timed ? &points.law_seconds : nullptr);
+      law->update(law_batch);
+    }
     points.substeps = std::max(points.substeps, law_batch.substeps);
 
     // energies, the step
@@ -365,11 +373,8 @@ private:
         if (finite && per_present_volume)
           volume_change -= w * Number(0.5) * (stored_old[q] + stored) * (J - J_old);
 
-        Number A[dim][dim];
-        Shape::metric(operators.metric[q], H[q], finite, A);
-        const Number g = shape * Shape::square_norm(A), nu = viscosity[q] + Number(law->viscosity_time()) * c * c,
-                     f = g * c * c;
-        frequency      = Arenite::max<Number>(frequency, f);
+        const Number g = shape * size[q], nu = viscosity[q] + Number(law->viscosity_time()) * c * c, f = g * c * c;
+        frequency = Arenite::max<Number>(frequency, f);
         // 1/dt = g (nu + sqrt(nu^2 + 4 c^2/g))/4
         inverse_step =
           Arenite::max<Number>(inverse_step,
@@ -379,10 +384,7 @@ private:
         if (any_of(!good))
           for (int l = 0; l < batches.active[batch]; ++l)
             if (!mask_lane(good, l) && batches.cells[batch * W + l] < points.failed_cell)
-              {
-                points.failed_cell  = batches.cells[batch * W + l];
-                points.failed_point = q;
-              }
+              points.failed_cell = batches.cells[batch * W + l];
       }
     const Number last = load<Number>(&points.frequency[batch * W]);
     const Number growth =
@@ -401,7 +403,6 @@ private:
         points.viscous_work += lane(viscous, l);
         points.volume_change += lane(volume_change, l);
         points.hourglass_work += lane(hourglass, l);
-        points.volume_rate  = std::max(points.volume_rate, lane(largest_rate, l));
         const double stable = 1. / lane(inverse_step, l);
         if (stable < points.stable_step)
           {

@@ -51,20 +51,15 @@ struct PresentShape
   }
 
   /// sqrt(dim)/|A|: the side of a cube, the shorter ones of a slender cell.
-  static ARENITE_INLINE V mean_length(const V (&reference)[dim][dim], const V (&H)[dim][dim], const bool finite)
+  static ARENITE_INLINE V mean_length(const V (&A)[dim][dim])
   {
-    V A[dim][dim];
-    metric(reference, H, finite, A);
     return square_root(V(V(double(dim)) / square_norm(A)));
   }
 
   /// |d|/|A d| of the reference coordinate's unit: how long the cell is in the direction of straining. Uniaxial straining along an edge
   /// of a brick gives that edge.
-  static ARENITE_INLINE V length_along(const SymTensor<V> &strain, const V (&reference)[dim][dim],
-                                       const V (&H)[dim][dim], const bool finite)
+  static ARENITE_INLINE V length_along(const SymTensor<V> &strain, const V (&A)[dim][dim])
   {
-    V A[dim][dim];
-    metric(reference, H, finite, A);
     const auto d = [&](const int i, const int j) { return strain[i == j ? i : 2 + i + j]; };
     V straining = V(1e-200), across = V(1e-200) * square_norm(A); // without any strain the direction does not matter
     for (int k = 0; k < dim; ++k)

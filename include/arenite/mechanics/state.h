@@ -32,14 +32,16 @@ struct PointData
   double viscous_work  = 0.; ///< of the bulk viscosity
   double volume_change = 0.; ///< see BlockEnergy
 
-  // of the last step, smallest and largest over the points of this process
+  // of the last step, over the points of this process
   double       stable_step   = std::numeric_limits<double>::infinity(); ///< [s]
-  double       volume_rate   = 0.;                                      ///< |tr D| [1/s]
-  unsigned int limiting_cell = 0;
-  double       substeps      = 1.;
+  unsigned int limiting_cell = 0;                                       ///< that allows no longer step
+  double       substeps      = 1.; ///< most parts into which the law divided a step, since the start
   unsigned int failed_cell =
     std::numeric_limits<unsigned int>::max(); ///< one where the state is no state; none if the largest number
-  unsigned int failed_point = 0;
+
+  // where the time goes, if that is wanted [s]
+  bool   is_timed    = false;
+  double law_seconds = 0., scatter_seconds = 0.; ///< of the time in the cells: in the law; gathering and scattering
 };
 
 /// What a block keeps in the state.

@@ -60,6 +60,7 @@ struct Scene
   ReceiverSets<dim>                         receivers;
   VTUOutput<dim>                            pictures;
   Statistics                                statistics;
+  bool                                      timed = false; ///< print what the parts of a step cost
   SolutionChoice<dim>                       solution_choice;
   std::shared_ptr<const ExactSolution<dim>> exact_solution;
 

@@ -45,7 +45,11 @@ private:
   void                                observe(const OutputDirectory &, double dt, bool last);
   void                                watch(const EnergyReport &);
   void                                watch(const PointLimits<dim> &) const;
+  std::string                         describe_points(unsigned int block, unsigned int cell) const;
+  void                                watch_step(double dt);
+  double                              fastest_node() const;
   void                                record_dissipation();
+  void                                record_parts();
   void                                write_picture(const OutputDirectory &);
   double                              core_seconds(Clock::time_point since) const;
 
@@ -59,6 +63,7 @@ private:
   State<dim>                     state;
   double                         initial_mass = 0., output_seconds = 0., adaptation_seconds = 0.;
   double                         step_power = 0., known_energy = 0.;
-  unsigned int                   n_adaptations = 0;
+  unsigned int                   n_adaptations  = 0;
+  bool                           warned_of_step = false;
 };
 } // namespace Arenite

@@ -5,6 +5,8 @@
 #include <arenite/time/energy_balance.h>
 #include <arenite/time/node_damping.h>
 
+#include <optional>
+
 namespace Arenite
 {
 /// What a change of the mesh should leave alone, of the modelled sector and summed over processes.
@@ -22,10 +24,17 @@ template <int dim>
 struct PointLimits
 {
   double stable_step = 0.;    ///< [s]
-  double volume_rate = 0.;    ///< largest |tr D| [1/s]
-  double substeps    = 1.;    ///< most parts into which a law divided the step
   bool   failed      = false; ///< some point is inverted or not finite
   int    failed_rank = -1;
+};
+
+/// Wall time of this process in the parts of its steps [s].
+struct StepCost
+{
+  double cells    = 0.; ///< strain, laws, nodal forces
+  double exchange = 0.; ///< between processes, and with hanging nodes; waiting included
+  double loads    = 0.;
+  double update   = 0.; ///< dashpots, constraints, the step itself and its work
 };
 
 /// The semi-discrete equations M a = f_int(u) + f_loads(u, v, t) of one mesh, and one step through them:
@@ -74,7 +83,7 @@ public:
   bool stores_points() const;
 
   /// Of the step that led to the present forces. Collective.
-  PointLimits<dim> point_limits(const State<dim> &) const;
+  PointLimits<dim> point_limits(const State<dim> &);
 
   /// InternalForce::point_values() of the block of an owned cell, in the order of the names of all blocks, zero for what a block does
   /// not have; false where the stress follows from the displacement.
@@ -95,6 +104,7 @@ public:
   EnergyBalance                                    balance;
   VectorType                                       mass; ///< per node [kg], zero at hanging nodes
   MaterialOfBlock                                  material_of_block;
+  std::optional<StepCost>                          cost; ///< measured if it is there; set it before reinit()
 
 private:
   void book_work(const State<dim> &, double half_step);

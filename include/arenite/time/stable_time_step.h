@@ -3,6 +3,7 @@
 #include <arenite/time/dynamics.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace Arenite
 {
@@ -41,6 +42,12 @@ public:
   /// Blocks that store points say after every step how long the next one may be [s].
   void follow(const double point_step) { step_of_points = point_step; }
 
+  /// The first step lets nobody who moves with @p speed cross more than a small part of the smallest cell [m/s].
+  void limit_first(double speed);
+
+  /// Step below which a run is given up, of a run of this length [s].
+  double smallest(double end_time) const { return least > 0. ? least : 1e-8 * end_time; }
+
   /// Step to use: divides the time that is left into equal parts, so that the end is hit without a small last step. Where it follows
   /// the points, it grows from the last one, @p dt_last, by a limited factor.
   double next(double time, double end_time, double dt_last = 0.) const;
@@ -58,7 +65,8 @@ private:
   double element_bound(const Dynamics<dim> &, bool without_points = false);
   double assembled_bound(Dynamics<dim> &, double elements);
 
-  double courant = 0.9, fixed = 0., largest = 0., first = 0., growth = 1.1;
+  double courant = 0.9, fixed = 0., largest = 0., least = 0., first = 0., growth = 1.1;
+  double first_by_motion = std::numeric_limits<double>::infinity(), largest_inverse_size = 0.;
   bool   follows_points = false;
   double step_of_points = 0., elastic_step = 0.; ///< of blocks with and without points, if there are some with
   double critical_step = 0., element_step = 0.;
