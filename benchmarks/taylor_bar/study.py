@@ -50,7 +50,7 @@ for element, across in study.choose((("one point, viscous control", 4), ("one po
     run, *space = measure(element, COPPER, across, 100e6, form=quarter)
     off = [profiles.relative(a, b) for a, b in zip(space, plane)]
     study.add(f"copper, {element}, quarter, 3-D", run, abs(off[0]), across=across, length_mm=1e3 * space[0], foot_mm=1e3 * space[1],
-              energy_error=run["energy_error"], foot_to_meridian=off[1])
+              foot_to_meridian=off[1], energy_error=run["energy_error"])
 across = study.choose((12,), quick=(4,))[0]
 run, length, foot = measure("one point, viscous control", COPPER, across, 100e6, "Green-Naghdi")
 study.add("copper, one point, Green-Naghdi", run, 0., across=across, length_mm=1e3 * length, foot_mm=1e3 * foot, energy_error=run["energy_error"])
