@@ -8,6 +8,26 @@
 import math
 import numpy
 
+
+def line(dimension, length, cells, across=2):
+    """Settings of a plane wave along x: a box of `cells`, in two and three dimensions a strip or a brick with square cells and sides that slide."""
+    if dimension == 1:
+        return {"Mesh/Upper corner": length, "Mesh/Cells": cells}
+    sides = "yz"[:dimension - 1]
+    width = f"{across * length / cells:.12g}"
+    return {"Dimension": dimension, "Symmetry": {2: "plane strain", 3: "none"}[dimension],
+            "Mesh/Upper corner": ", ".join([f"{length:.12g}"] + [width] * len(sides)),
+            "Mesh/Cells": ", ".join([str(cells)] + [str(across)] * len(sides)),
+            "Constraints/Symmetry planes": ", ".join(f"{a} {end}" for a in sides for end in ("min", "max"))}
+
+
+def octant(layers, refinement):
+    """Settings of a scene in a spherical shell: an octant of that many layers, with 2^(refinement + 1) cells along the quarter circle."""
+    if layers % 2 ** refinement:
+        raise ValueError(f"{layers} layers cannot be halved {refinement} times")
+    return {"Dimension": 3, "Symmetry": "none", "Mesh/Radial layers": layers // 2 ** refinement, "Mesh/Refinement": refinement}
+
+
 def along(name, cells, upper, lower=0., interval=None, parts=1, quantities="displacement, velocity, stress, density", direction="1, 0, 0"):
     """Settings that move the receivers `name` of a scene to the middle of `parts` parts of each of the equal cells."""
     places = lower + (numpy.arange(cells * parts) + .5) * (upper - lower) / (cells * parts)
@@ -97,3 +117,22 @@ def order(cells, errors):
 
 def relative(computed, exact):
     return computed / exact - 1
+
+
+def line_and_brick(measure, row, dimensions=(1, 3)):
+    """The cells of `row`, a line, in several dimensions: the same numbers, if the steps are the same. They are a sixth of those of the row, which
+    all forms can take. measure(dimension, steps) adds a row."""
+    rows = [measure(dimension, 6 * row["steps"]) for dimension in dimensions]
+    for dimension, other in zip(dimensions[1:], rows[1:]):
+        other["off_1_D"] = relative(other["error"], rows[0]["error"])
+        print(f"  error in {dimension}-D over that in 1-D: 1 {other['off_1_D']:+.1e}", flush=True)
+
+
+def equal_steps(end, steps):
+    """Settings of so many steps; none for the scene's own."""
+    return {"Time stepping/Fixed step": f"{end / steps:.15g}"} if steps else {}
+
+
+def form(dimension, steps):
+    """What the name of a row says about these."""
+    return (", equal steps" if steps else "") + (f", {dimension}-D" if dimension > 1 else "")

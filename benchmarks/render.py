@@ -5,6 +5,8 @@
 
     render.py output/buried_cavity/solution.pvd surface.png --time 3e-3 --mirror --edges
 
+    render.py output/bar/solution.pvd bar.png --warp --mirror --edges         large strain: the body as it is now
+
 FILE is a .pvtu, a .vtu, or the solution.pvd of a run (its last picture, or --time T). Surfaces and edges are those of the
 high-order cells themselves, not of their corners. Needs python3-vtk9 and, where no display is, xvfb.
 """
@@ -29,7 +31,8 @@ def arguments():
     parser.add_argument("--field", default="velocity", help="name of a field (default: %(default)s)")
     parser.add_argument("--component", default="magnitude",
                         help="magnitude, x, y, z, xx, xy, ... or radial, seen from the origin (default: %(default)s)")
-    parser.add_argument("--warp", type=float, default=0., metavar="FACTOR", help="show the displacement, this many times enlarged")
+    parser.add_argument("--warp", type=float, nargs="?", const=1., default=0., metavar="FACTOR",
+                        help="show the displaced body, the displacement this many times enlarged (no number: as it is)")
     parser.add_argument("--mirror", action="store_true", help="show a meridian plane (x = r, y = z) on both sides of the axis")
     parser.add_argument("--edges", action="store_true", help="draw the edges of the cells")
     parser.add_argument("--range", type=float, nargs=2, metavar=("MIN", "MAX"), help="ends of the colour scale")
@@ -158,7 +161,10 @@ def surface(grid):
     x = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
     moved = x
     if options.warp != 0.:
-        moved = x + options.warp * vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+        displacement = grid.GetPointData().GetArray("displacement")
+        if displacement is None:
+            stop("--warp needs the field 'displacement'")
+        moved = x + options.warp * vtk_to_numpy(displacement)
     data, reduce_to_number = field(grid)
     points, normals, colours, quads, lines, n = [], [], [], [], [], 0
     for order, ids in cells_by_order(grid):

@@ -23,12 +23,13 @@ def law(piston):
             block + "Friction slope": piston.Yb / (3 * math.sqrt(3))}
 
 
-def measure(case, element, viscosity, cells, kinematics="small strain"):
+def measure(case, element, viscosity, cells, kinematics="small strain", dimension=1, steps=None):
     piston = CASES[case].scaled(SCALE)
     end = piston.time_of_profile()
     length = 1.25 * piston.ce * end
     linear, quadratic, expansion = VISCOSITIES[viscosity]
-    settings = {**law(piston), **ELEMENTS[element], "Kinematics": kinematics, "Mesh/Upper corner": length, "Mesh/Cells": cells, "End time": end,
+    settings = {**law(piston), **ELEMENTS[element], "Kinematics": kinematics, **profiles.line(dimension, length, cells), "End time": end,
+                **profiles.equal_steps(end, steps),
                 "Loads/push/Amplitude": piston.loaded.S, "Loads/push/Expression": f"(t < {piston.t1}) ? 1 : 0",
                 "Element/Linear bulk viscosity": linear, "Element/Quadratic bulk viscosity": quadratic,
                 "Element/Bulk viscosity in expansion": expansion,
@@ -45,13 +46,15 @@ def measure(case, element, viscosity, cells, kinematics="small strain"):
 
     S, v = profile.S, profile.v
     reverse, released, loaded, yielding, _ = piston.zones()
-    return study.add(f"{case}, {element}, {viscosity}" + (", finite strain" if kinematics != "small strain" else ""), run,
+    return study.add(f"{case}, {element}, {viscosity}" + (", finite strain" if kinematics != "small strain" else "") +
+                     profiles.form(dimension, steps), run,
                      profile.l1(v, numpy.array([zone.v for zone in zones])), cells=cells,
                      S_L1=profile.l1(S, numpy.array([zone.S for zone in zones])),
                      S_H=profiles.relative(plateau(3, S), yielding.S), S1=profiles.relative(plateau(2, S), loaded.S),
                      v1=profiles.relative(plateau(2, v), loaded.v), S2=profiles.relative(plateau(1, S), released.S),
                      v2=profiles.relative(plateau(1, v), released.v), v3=profiles.relative(plateau(0, v), reverse.v),
-                     p3=profiles.relative(plateau(0, profile.p), reverse.p), energy_error=run["energy_error"])
+                     p3=profiles.relative(plateau(0, profile.p), reverse.p), steps=run["steps"],
+                     energy_error=run["energy_error"])
 
 
 orders = []
@@ -65,14 +68,16 @@ def converge(case, element, viscosity):
                    "order of S": profiles.order(ladder, [row["S_L1"] for row in rows]),
                    **{f"{name} on {cells} cells": row[name] for name in ("S2", "v2", "v3")
                       for cells, row in zip((ladder[0], ladder[-1]), (rows[0], rows[-1]))}})
+    return rows
 
 
 for case in CASES:
     for viscosity in study.choose(VISCOSITIES, quick=("0.06, compression only", "0.3")):
-        converge(case, "Q1, one point", viscosity)
+        rows = converge(case, "Q1, one point", viscosity)
     for element in study.choose(list(ELEMENTS)[1:], quick=("Q1, 2x2x2",)):
         converge(case, element, "0.3")
     measure(case, "Q1, one point", "0.3", ladder[-1], "finite strain")
+    profiles.line_and_brick(lambda dimension, steps: measure(case, "Q1, one point", viscosity, ladder[0], dimension=dimension, steps=steps), rows[0])
 
 table = common.markdown_table(orders)
 print("\n" + table, flush=True)
@@ -81,4 +86,4 @@ study.finish(f"""Orders of the L1 errors, and relative errors of the released st
 {table}
 
 Columns S_H to p3: relative errors in the middle of the zones (H at yield, 1 loaded, 2 released, 3 after reverse yield). The viscosity is the
-linear coefficient; the quadratic one is 1.2.""", ylabel="L1 error of v")
+linear coefficient; the quadratic one is 1.2. off_1_D: of the error to that of the same cells and steps in one dimension.""", ylabel="L1 error of v")

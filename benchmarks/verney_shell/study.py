@@ -28,7 +28,7 @@ def measure(element, form, layers, ri, refinement=0, stiffer=1.):
     letter = "x" if dim == 3 else "r"
     inner = BERYLLIUM.Ri + numpy.array(table[f"p1.displacement_{letter} [m]"])[late].mean()
     outer = BERYLLIUM.Ro + numpy.array(table[f"p2.displacement_{letter} [m]"])[late].mean()
-    return study.add(f"{form}, {element}" + (f", {stiffer:g} times stiffer" if stiffer != 1 else ""), run, abs(inner / ri - 1), layers=layers,
+    return study.add(f"{form}, {element}" + (", 3-D" if dim == 3 else "") + (f", {stiffer:g} times stiffer" if stiffer != 1 else ""), run, abs(inner / ri - 1), layers=layers,
                      refinement=refinement, target=ri, ri=inner, ro=profiles.relative(outer, BERYLLIUM.outer(ri)), energy_error=run["energy_error"])
 
 
@@ -38,8 +38,8 @@ for element in ELEMENTS:
             measure(element, "radius", layers, ri)
 measure("one point", "radius", study.choose((100,), quick=(25,))[0], .05, stiffer=10)
 for element in ELEMENTS:
-    for form in ("meridian plane", "octant"):
-        for refinement in study.choose((1, 2), quick=(0,)):
+    for form in FORMS:  # the radius again, on as few layers
+        for refinement in study.choose((1, 2, 3), quick=(1,)):
             measure(element, form, 3, .05, refinement)
 study.finish("Final inner radius of the shell, mean over 120 to 150 us. The stiffer solid is closer to the incompressible one of the closed form.",
              ylabel="relative error of the final radius")
