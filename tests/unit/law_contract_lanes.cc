@@ -12,7 +12,7 @@ BOOST_AUTO_TEST_SUITE(law_contract)
 
 namespace
 {
-/// Largest difference of W lanes from W scalar calls; lanes whose step is divided otherwise than alone are left out.
+/// Largest difference of W lanes from W scalar calls, whatever the parts of their steps.
 template <typename Law, int W>
 void compare_lanes(const Law &law)
 {
@@ -24,9 +24,8 @@ void compare_lanes(const Law &law)
   std::vector<double> strain(6 * points.size()), stress(strain.size()), history(n_history * points.size());
   std::vector<double> density(points.size()), old(points.size()), speed(points.size()), stored(points.size()),
     dissipated(points.size());
-  double       worst = 0., worst_history = 0., worst_energy = 0.;
-  unsigned int compared = 0;
-  for (unsigned int i = 0; i < n; ++i) // one point per batch, so that the parts of each are known
+  double worst = 0., worst_history = 0., worst_energy = 0.;
+  for (unsigned int i = 0; i < n; ++i)
     {
       for (int l = 0; l < W; ++l)
         {
@@ -54,14 +53,13 @@ void compare_lanes(const Law &law)
       batch.stored      = stored.data();
       batch.dissipated  = dissipated.data();
       batch_law.update(batch);
+      double most_parts = 1.;
       for (int l = 0; l < W; ++l)
         {
-          auto sample    = points[i * W + l];
-          sample.next.dt = batch.dt;
-          const auto r   = law.update(sample.stress, sample.next, sample.history);
-          if (r.substeps != batch.substeps)
-            continue;
-          ++compared;
+          auto sample           = points[i * W + l];
+          sample.next.dt        = batch.dt;
+          const auto r          = law.update(sample.stress, sample.next, sample.history);
+          most_parts            = std::max(most_parts, r.substeps);
           const double        s = scale(law, points[i * W + l]);
           SymTensor<double>   lane_stress;
           std::vector<double> lane_history;
@@ -79,10 +77,10 @@ void compare_lanes(const Law &law)
                                      (s * (s / modulus(law))));
           BOOST_TEST(std::abs(speed[l] - r.wave_speed) < 1e-12 * r.wave_speed);
         }
+      BOOST_TEST(batch.substeps == most_parts);
     }
-  BOOST_TEST_MESSAGE(Law::name << ", " << W << " lanes, " << compared << " of " << points.size() << " points: stress "
-                               << worst << ", history " << worst_history << ", energy " << worst_energy);
-  BOOST_TEST(compared > points.size() / 8);
+  BOOST_TEST_MESSAGE(Law::name << ", " << W << " lanes: stress " << worst << ", history " << worst_history
+                               << ", energy " << worst_energy);
   BOOST_TEST(worst < 1e-11);
   BOOST_TEST(worst_history < 1e-9);
   BOOST_TEST(worst_energy < 1e-10);

@@ -4,6 +4,7 @@
 #include <arenite/materials/elastic_constants.h>
 #include <arenite/materials/material_law.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -122,7 +123,7 @@ struct ViscoplasticCap
     if constexpr (Stiffness::changes)
       stress = with_kirchhoff_deviator(stress_n, increment);
     Dissipation<Number> dissipation;
-    Trial<Number>       t = trial(stress, increment.strain, moduli.K, moduli.G, history);
+    const Trial<Number> t = trial(stress, increment.strain, moduli.K, moduli.G, history);
     Number              p, J2;
     if (stays_elastic(t, history))
       {
@@ -132,17 +133,39 @@ struct ViscoplasticCap
       }
     else
       {
-        const unsigned int n      = parts(t, stress, increment.strain, moduli.K, moduli.G, history);
-        const auto         strain = n == 1 ? increment.strain : increment.strain * Number(1. / n);
-        for (unsigned int part = 0; part < n; ++part)
+        const auto              wanted = parts(t, stress, increment.strain, moduli.K, moduli.G, history);
+        const SymTensor<Number> start  = stress;
+        const History<Number>   past   = history;
+        // lanes with equal numbers of parts go together: what a point does must not depend on its neighbours
+        for (int first = 0; first < n_lanes<Number>(); ++first)
           {
-            if (n > 1)
-              t = trial(stress, strain, moduli.K, moduli.G, history);
-            dissipation += step(t, stress, increment.dt / n, moduli.K, moduli.G, history, response.iterations);
+            const double n      = lane(wanted, first);
+            bool         is_new = true;
+            for (int l = 0; l < first; ++l)
+              is_new = is_new && lane(wanted, l) != n;
+            if (!is_new)
+              continue;
+            SymTensor<Number>   now    = start;
+            History<Number>     record = past;
+            const auto          strain = n == 1. ? increment.strain : increment.strain * Number(1. / n);
+            Dissipation<Number> sum;
+            for (double part = 0.; part < n; ++part)
+              {
+                const Trial<Number> next = n == 1. ? t : trial(now, strain, moduli.K, moduli.G, record);
+                sum += step(next, now, increment.dt / n, moduli.K, moduli.G, record, response.iterations);
+              }
+            response.substeps = std::max(response.substeps, n);
+            if (first == 0)
+              {
+                stress      = now;
+                history     = record;
+                dissipation = sum;
+              }
+            else
+              take(wanted == decltype(wanted)(n), now, record, sum, stress, history, dissipation);
           }
-        response.substeps = n;
-        p                 = pressure(stress);
-        J2                = second_invariant(deviator(stress));
+        p  = pressure(stress);
+        J2 = second_invariant(deviator(stress));
       }
 
     response.stress = stress;
@@ -232,6 +255,26 @@ private:
     return remainder + (remainder + reached) * (z - reached);
   }
 
+  /// The lanes of a mask take another state.
+  template <typename M, typename Number>
+  static void take(const M &mask, const SymTensor<Number> &stress, History<Number> &history,
+                   const Dissipation<Number> &dissipation, SymTensor<Number> &to_stress, History<Number> &to_history,
+                   Dissipation<Number> &to_dissipation)
+  {
+    for (int k = 0; k < 6; ++k)
+      to_stress[k] = select<Number>(mask, stress[k], to_stress[k]);
+    std::array<Number *, 16> entries; // more than any history has
+    auto                     entry = entries.begin();
+    to_history.for_each([&](const char *, Number &value) { *entry++ = &value; });
+    entry = entries.begin();
+    history.for_each([&](const char *, Number &value) {
+      **entry = select<Number>(mask, value, **entry);
+      ++entry;
+    });
+    to_dissipation.volume = select<Number>(mask, dissipation.volume, to_dissipation.volume);
+    to_dissipation.shear  = select<Number>(mask, dissipation.shear, to_dissipation.shear);
+  }
+
   /// What an inelastic volume strain dissipates per unit [Pa]: p, and where stored energy is that of the reference volume, the elastic
   /// energy of the present volume, which the strain takes from or adds to the body: d(J U) = J U d eps_vp.
   template <typename Number>
@@ -319,15 +362,15 @@ private:
   }
 
   /// Number of parts of a step: strains above `substep_size` times those that cross the surface, |dev| > F/G, |vol| > X/(3K), are
-  /// divided where the state yields. The same for all lanes.
+  /// divided where the state yields; per lane, a power of two, so that few groups of lanes differ.
   template <typename Number>
-  unsigned int parts(const Trial<Number> &t, const SymTensor<Number> &stress, const SymTensor<Number> &strain,
-                     const Number &K, const Number &G, const History<Number> &history) const
+  Value<Number> parts(const Trial<Number> &t, const SymTensor<Number> &stress, const SymTensor<Number> &strain,
+                      const Number &K, const Number &G, const History<Number> &history) const
   {
-    constexpr unsigned int most = 1000;
+    constexpr double most = 1024.;
+    using V               = Value<Number>;
     if (substep_size == 0.)
-      return 1;
-    using V        = Value<Number>;
+      return V(1.);
     const V volume = V(3.) * absolute(value_of(trace(strain))) * value_of(K);
     const V shear =
       V(2.) * value_of(square_root(Number(second_invariant(deviator(strain)) + Number(1e-60)))) * value_of(G);
@@ -336,18 +379,17 @@ private:
     const V near_X =
       select(xi < V(0.), V(V(surface.smallest_position) + xi), V(V(surface.axis_ratio * surface.F0) + xi));
     if (!any_of(shear > c * V(surface.F0) || volume > c * near_X))
-      return 1;
+      return V(1.);
     const V    strength = max(surface.failure(value_of(Number(-trace(stress)))).value, V(surface.F0));
     const auto cap      = surface.cap(xi);
     const V    needed   = max(V(shear / strength), V(volume / cap.X));
     if (!any_of(needed > c))
-      return 1;
+      return V(1.);
     const Mask<V> yields = surface.yield_function(value_of(t.I1), square_root(value_of(t.J2)), cap) > V(0.);
-    double        n      = 1.;
-    for (int l = 0; l < n_lanes<V>(); ++l)
-      if (mask_lane(yields, l))
-        n = std::max(n, std::ceil(lane(needed, l) / substep_size));
-    return static_cast<unsigned int>(std::min(n, double(most)));
+    V             n      = V(1.);
+    for (double half = 1.; half < most && any_of(yields && needed > V(c * V(half))); half *= 2.)
+      n = select(yields && needed > V(c * V(half)), V(2. * half), n);
+    return n;
   }
 
   /// One part. @return what it dissipates with the mean stress, so that stored and dissipated energy add up to the work.
