@@ -1,5 +1,7 @@
 #include <arenite/adaptivity/field_transfer.h>
 #include <arenite/adaptivity/mesh_adaptor.h>
+#include <arenite/adaptivity/momentum_transfer.h>
+#include <arenite/adaptivity/point_transfer.h>
 #include <arenite/base/errors.h>
 
 #include <deal.II/distributed/cell_data_transfer.templates.h>
@@ -21,8 +23,20 @@ void MeshAdaptor<dim>::declare_parameters(Parameters &parameters)
   parameters.add_integer(
     "Levels", levels, 0, 8,
     "Levels that may be refined on top of the initial mesh; 0 keeps the mesh. Each level halves the step.");
-  parameters.add_choice("Indicator", type, refinement_indicators<dim>().names(),
-                        "What marks a cell as part of the front.");
+  if (const auto chosen = parameters.peek_list("Adaptivity/Indicator"); !chosen.empty())
+    types = chosen;
+  for (const std::string &type : types)
+    {
+      const auto names = refinement_indicators<dim>().names();
+      if (std::find(names.begin(), names.end(), type) == names.end())
+        parameters.refuse("Adaptivity/Indicator",
+                          "'" + type + "' is not a refinement indicator." + suggestion(type, names));
+      indicators.push_back({refinement_indicators<dim>().make(type)});
+      indicators.back().kind->declare_parameters(parameters);
+    }
+  parameters.add_list("Indicator", types,
+                      "What marks a cell as part of the front, one or several of: " +
+                        join(refinement_indicators<dim>().names()) + ".");
   parameters.add_quantity(
     "Refine above", refine_above, "-", {0., 1., true, false},
     "Part of the largest indicator above which a cell belongs to the front. Larger values refine less.");
@@ -31,6 +45,10 @@ void MeshAdaptor<dim>::declare_parameters(Parameters &parameters)
     "Part of the largest indicator below which cells are coarsened. Larger values coarsen sooner.");
   parameters.add_integer("Buffer layers", layers, 1, 100,
                          "Layers of fine cells around the front. More layers cost cells and save adaptations.");
+  parameters.add_points("Refined boxes", fine_boxes, "m",
+                        "Boxes of the undeformed body that stay at the finest level, two opposite corners each.");
+  parameters.add_points("Coarse boxes", coarse_boxes, "m",
+                        "Boxes that stay as the initial mesh is, whatever happens in them, two opposite corners each.");
   parameters.add_list("Initially refined boundaries", boundary_names,
                       "Boundaries with fine cells at the start; 'auto': those under pressure.");
   parameters.add_integer("Largest number of cells", cell_limit, 1, 1000000000,
@@ -41,7 +59,10 @@ template <int dim>
 void MeshAdaptor<dim>::finalize(const Parameters &parameters, const MeshChoice<dim> &mesh,
                                 const Geometry<dim> &geometry)
 {
-  kind                 = refinement_indicators<dim>().make(type);
+  for (const auto &[entry, boxes] :
+       {std::make_pair("Refined boxes", &fine_boxes), std::make_pair("Coarse boxes", &coarse_boxes)})
+    if (boxes->size() % 2 != 0)
+      parameters.refuse(std::string("Adaptivity/") + entry, "needs two corners for each box");
   base_level           = mesh.refinement;
   refine_geometry      = mesh.refine_geometry;
   automatic_boundaries = boundary_names == std::vector<std::string>{"auto"};
@@ -85,6 +106,38 @@ void MeshAdaptor<dim>::grow(Triangulation &triangulation, std::vector<bool> &mar
           for (const unsigned int v : cell->vertex_indices())
             if (vertex[cell->vertex_index(v)])
               marked[cell->active_cell_index()] = true;
+    }
+}
+
+/// Cells that boxes of the scene keep fine or coarse, by their centres.
+template <int dim>
+void MeshAdaptor<dim>::obey_boxes(const Discretization<dim> &discretization, std::vector<bool> &front,
+                                  std::vector<bool> &coarse) const
+{
+  if (fine_boxes.empty() && coarse_boxes.empty())
+    return;
+  std::vector<Point<dim>> x;
+  for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
+    {
+      discretization.cell_positions(cell, x);
+      Point<dim> centre;
+      for (const Point<dim> &node : x)
+        centre += node / double(x.size());
+      const auto inside = [&](const std::vector<Point<dim>> &boxes) {
+        for (std::size_t box = 0; box < boxes.size(); box += 2)
+          {
+            bool is_inside = true;
+            for (unsigned int d = 0; d < dim; ++d)
+              is_inside = is_inside && centre[d] >= std::min(boxes[box][d], boxes[box + 1][d]) &&
+                          centre[d] <= std::max(boxes[box][d], boxes[box + 1][d]);
+            if (is_inside)
+              return true;
+          }
+        return false;
+      };
+      const unsigned int index = discretization.cells()[cell]->active_cell_index();
+      coarse[index]            = inside(coarse_boxes);
+      front[index]             = !coarse[index] && (front[index] || inside(fine_boxes));
     }
 }
 
@@ -151,7 +204,11 @@ void MeshAdaptor<dim>::initial_refinement(Triangulation &triangulation, Discreti
             if (face->at_boundary() && std::find(initial_boundaries.begin(), initial_boundaries.end(),
                                                  face->boundary_id()) != initial_boundaries.end())
               front[cell->active_cell_index()] = true;
+      std::vector<bool> coarse(front.size(), false);
+      obey_boxes(discretization, front, coarse);
       grow(triangulation, front);
+      for (std::size_t i = 0; i < front.size(); ++i)
+        front[i] = front[i] && !coarse[i];
       flag(triangulation, front, quiet);
       check_size(triangulation, 0.);
       FieldTransfer<dim> transfer(discretization);
@@ -173,25 +230,35 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
 {
   const Discretization<dim> &discretization = dynamics.discretization;
   const auto                &cells          = discretization.cells();
-  Vector<float>              indicator(cells.size());
-  kind->evaluate(discretization, state, dynamics.velocity(state), dynamics.material_of_block, indicator);
-  const float largest = Utilities::MPI::max(cells.empty() ? 0.f : indicator.linfty_norm(), discretization.communicator);
-
-  // a wave that has left must not hand the fine cells over to what is left behind it
-  peak                  = std::max(peak, largest);
-  const float reference = std::max(largest, 0.02f * peak);
-
-  std::vector<bool> front(triangulation.n_active_cells(), false), quiet(front);
-  unsigned long     met = 0;
-  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+  const VectorType           velocity       = dynamics.velocity(state);
+  std::vector<bool>          front(triangulation.n_active_cells(), false), quiet(front.size(), true), coarse(front);
+  for (Indicator &indicator : indicators)
     {
-      const bool in_front                     = indicator[cell] > refine_above * reference;
-      front[cells[cell]->active_cell_index()] = in_front;
-      quiet[cells[cell]->active_cell_index()] = indicator[cell] <= coarsen_below * reference;
-      met += count && in_front && static_cast<unsigned int>(cells[cell]->level()) < base_level + levels;
+      Vector<float> value(cells.size());
+      indicator.kind->evaluate(dynamics, state, velocity, value);
+      const float largest = Utilities::MPI::max(cells.empty() ? 0.f : value.linfty_norm(), discretization.communicator);
+      // a wave that has left must not hand the fine cells over to what is left behind it
+      indicator.peak        = std::max(indicator.peak, largest);
+      const float reference = std::max(largest, 0.02f * indicator.peak);
+      for (unsigned int cell = 0; cell < cells.size(); ++cell)
+        {
+          const unsigned int index = cells[cell]->active_cell_index();
+          front[index]             = front[index] || value[cell] > refine_above * reference;
+          quiet[index]             = quiet[index] && value[cell] <= coarsen_below * reference;
+        }
     }
+  obey_boxes(discretization, front, coarse);
+  unsigned long met = 0;
+  for (const auto &cell : cells)
+    met += count && front[cell->active_cell_index()] && static_cast<unsigned int>(cell->level()) < base_level + levels;
   n_met += Utilities::MPI::sum(met, discretization.communicator);
   grow(triangulation, front);
+  for (std::size_t i = 0; i < front.size(); ++i)
+    if (coarse[i])
+      {
+        front[i] = false;
+        quiet[i] = true;
+      }
   flag(triangulation, front, quiet);
   check_size(triangulation, state.time);
   unsigned int changes = 0;
@@ -295,6 +362,8 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
   transfer.prepare();
   RatioTransfer<dim> ratios(triangulation);
   ratios.prepare(time_step.ratio, discretization);
+  PointTransfer<dim>    points(triangulation, dynamics, state);
+  MomentumTransfer<dim> momentum(triangulation, dynamics, velocity);
   triangulation.execute_coarsening_and_refinement();
 
   discretization.distribute_nodes();
@@ -304,7 +373,7 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
   if (refine_geometry)
     discretization.positions_from_manifolds();
 
-  dynamics.reinit(state);
+  dynamics.reinit(state, false);
   transfer.next(state.displacement);
   transfer.next(state.half_velocity);
   dynamics.constraints.project(state.displacement);
@@ -316,23 +385,26 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
         transfer.next(scalar);
         load->set_nodal_state(scalar);
       }
+  make_consistent(discretization, state.displacement);
+  make_consistent(discretization, state.half_velocity);
+  momentum.restore(state, state.half_velocity);
+  points.unpack(state);
   zero_at_hanging_nodes(discretization, state.half_velocity);
 
   ratios.unpack(time_step.ratio);
 }
 
 template <int dim>
-void MeshAdaptor<dim>::schedule(const Dynamics<dim> &dynamics, const double time)
+void MeshAdaptor<dim>::schedule(const Dynamics<dim> &dynamics)
 {
   if (!active())
     return;
-  // shortest time in which a P wave crosses a cell; one layer stays as reserve
-  double crossing = std::numeric_limits<double>::max();
+  crossing_at_rest = std::numeric_limits<double>::max();
   for (const auto &cell : dynamics.discretization.cells())
-    crossing = std::min(crossing, cell->minimum_vertex_distance() /
-                                    dynamics.material_of_block(cell->material_id()).p_wave_speed());
-  crossing  = Utilities::MPI::min(crossing, dynamics.discretization.communicator);
-  next_time = time + std::max(layers - 1., 0.5) * crossing;
+    crossing_at_rest = std::min(crossing_at_rest, cell->minimum_vertex_distance() /
+                                                    dynamics.material_of_block(cell->material_id()).p_wave_speed());
+  crossing_at_rest = Utilities::MPI::min(crossing_at_rest, dynamics.discretization.communicator);
+  crossed          = 0.;
 }
 
 template class MeshAdaptor<1>;

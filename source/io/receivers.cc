@@ -164,7 +164,7 @@ void Receivers<dim>::record(const State<dim> &state)
   if (!chained || !(consecutive || same_step))
     {
       if (velocity.size() == 0)
-        velocity = discretization->new_vector();
+        velocity.reinit(discretization->vector_partitioner);
       velocity.zero_out_ghost_values();
       velocity.copy_locally_owned_data_from(state.half_velocity);
       make_consistent(*discretization, velocity);

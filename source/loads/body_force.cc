@@ -15,7 +15,7 @@ void BodyForce<dim>::reinit(const Discretization<dim> &mesh, const NodalMass &ma
   copy_with_ghosts(mass.partial, volume);
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     volume.local_element(node) /= density;
-  current = mesh.new_vector();
+  current.reinit(mesh.vector_partitioner);
 }
 
 template <int dim>

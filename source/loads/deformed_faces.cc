@@ -61,7 +61,7 @@ void DeformedFaces<dim>::reinit(const Discretization<dim>             &new_discr
             face_nodes.push_back(discretization->cell_nodes(cell)[i]);
         sign.push_back(outward_sign<dim>(f));
       }
-  area = discretization->new_vector();
+  area.reinit(discretization->vector_partitioner);
   find_nodes();
 }
 

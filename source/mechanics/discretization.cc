@@ -120,7 +120,7 @@ void Discretization<dim>::distribute_nodes()
   std::transform(global_table.begin(), global_table.end(), node_table.begin(),
                  [&](const types::global_dof_index i) { return node_partitioner->global_to_local(i); });
   make_hanging_nodes(hanging_lines, constraints, radial);
-  positions = new_vector();
+  positions.reinit(vector_partitioner);
 }
 
 /// The lines of the explicit list: nodes that @p constraints knows, and what @p radial says of the first component.

@@ -73,7 +73,7 @@ NodalStress<dim> nodal_stress(const Discretization<dim> &discretization, const V
 {
   NodalStress<dim> sums;
   for (VectorType &component : sums)
-    component = discretization.new_scalar();
+    component.reinit(discretization.node_partitioner);
   VectorType count = discretization.new_scalar(), stored_count = count;
   if (others)
     others->assign(stored.names.size(), count);

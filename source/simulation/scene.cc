@@ -127,11 +127,6 @@ void Scene<dim>::finalize(Parameters &parameters)
   initial_energy.finalize(parameters);
   time_step.finalize(parameters);
   adaptor.finalize(parameters, mesh, *mesh.geometry);
-  for (const Block &block : blocks)
-    if (block.law && adaptor.active())
-      parameters.refuse("Adaptivity/Levels",
-                        "the points of block '" + block.name +
-                          "' remember their past, which does not move to other cells yet; use 'Levels = 0'");
   receivers.finalize(parameters);
   pictures.finalize(parameters);
   statistics.finalize(parameters);

@@ -57,7 +57,7 @@ void Simulation<dim>::set_up()
     dynamics->cost.emplace();
   dynamics->reinit(state);
   scene.time_step.calibrate(*dynamics);
-  scene.adaptor.schedule(*dynamics, 0.);
+  scene.adaptor.schedule(*dynamics);
   set_initial_state();
   scene.time_step.limit_first(std::max(fastest_node(), scene.constraints.largest_speed(0.)));
   initial_mass              = dynamics->total_mass();
@@ -363,20 +363,23 @@ void Simulation<dim>::march(const OutputDirectory &directory)
   const bool follows_points = dynamics->stores_points();
   while (true)
     {
-      const bool last = state.time >= scene.end_time * (1. - 1e-12);
+      double     crossing = std::numeric_limits<double>::infinity();
+      const bool last     = state.time >= scene.end_time * (1. - 1e-12);
       dynamics->compute_force(state);
       if (follows_points)
         {
           const PointLimits<dim> limits = dynamics->point_limits(state);
           watch(limits);
           scene.time_step.follow(limits.stable_step);
+          crossing = limits.crossing;
         }
+      scene.adaptor.follow(state.dt_last, crossing);
       double dt = last ? state.dt_last : scene.time_step.next(state.time, scene.end_time, state.dt_last);
       if (!last)
         watch_step(dt);
       dynamics->close_force(state, dt);
-      if (!last && scene.adaptor.due(state.time) && adapt(dt))
-        dt = scene.time_step.next(state.time, scene.end_time);
+      if (!last && scene.adaptor.due() && adapt(dt))
+        dt = scene.time_step.next(state.time, scene.end_time, state.dt_last);
       observe(directory, dt, last);
       if (last)
         return;
@@ -402,7 +405,9 @@ bool Simulation<dim>::adapt(const double dt_old)
   if (before)
     {
       scene.time_step.update(*dynamics);
-      const double dt = scene.time_step.next(state.time, scene.end_time);
+      if (dynamics->stores_points())
+        scene.time_step.follow(dynamics->point_limits(state).stable_step);
+      const double dt = scene.time_step.next(state.time, scene.end_time, state.dt_last);
       dynamics->close_force(state, dt, false);
       const Conserved<dim> after = dynamics->conserved(state, dt);
       dynamics->balance.add_adaptation(after.energy - before->energy);
@@ -413,7 +418,7 @@ bool Simulation<dim>::adapt(const double dt_old)
       reinit_receivers();
       ++n_adaptations;
     }
-  scene.adaptor.schedule(*dynamics, state.time);
+  scene.adaptor.schedule(*dynamics);
   adaptation_seconds += core_seconds(start);
   return before.has_value();
 }

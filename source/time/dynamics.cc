@@ -18,9 +18,10 @@ bool begin_step(PointData &points, const unsigned int step)
   points.advances = points.stores_points && points.step != step;
   if (points.advances)
     {
-      points.step          = step;
-      points.stored_energy = 0.;
-      points.stable_step   = std::numeric_limits<double>::infinity();
+      points.step              = step;
+      points.stored_energy     = 0.;
+      points.stable_step       = std::numeric_limits<double>::infinity();
+      points.largest_frequency = 0.;
     }
   return points.advances;
 }
@@ -47,7 +48,7 @@ Dynamics<dim>::Dynamics(Discretization<dim> &discretization, std::vector<std::un
 }
 
 template <int dim>
-void Dynamics<dim>::reinit(State<dim> &state)
+void Dynamics<dim>::reinit(State<dim> &state, const bool at_rest)
 {
   state.reinit(discretization);
   NodalMass nodal{discretization.new_scalar(), VectorType()};
@@ -56,10 +57,10 @@ void Dynamics<dim>::reinit(State<dim> &state)
       block->reinit(discretization);
       block->add_mass(nodal.partial);
       state.blocks.emplace_back();
-      block->reinit_state(state.blocks.back());
+      block->reinit_state(state.blocks.back(), at_rest);
       state.blocks.back().points.is_timed = cost.has_value();
       if (state.blocks.back().points.stores_points)
-        state.last_displacement = discretization.new_vector();
+        state.last_displacement.reinit(discretization.vector_partitioner);
     }
   copy_with_ghosts(nodal.partial, nodal.condensed);
   VectorType &mass = nodal.condensed;
@@ -75,7 +76,7 @@ void Dynamics<dim>::reinit(State<dim> &state)
     load->reinit(discretization, nodal, material_of_block);
   constraints.reinit(discretization);
   damping.reinit(loads, constraints);
-  this->mass = std::move(nodal.condensed);
+  this->mass.swap(nodal.condensed);
 }
 
 template <int dim>
@@ -225,21 +226,23 @@ bool Dynamics<dim>::stores_points() const
 template <int dim>
 PointLimits<dim> Dynamics<dim>::point_limits(const State<dim> &state)
 {
-  // the smallest of (step, rank with a failure) in one message
+  // the smallest of (step, rank with a failure, -frequency^2) in one message
   const Stopwatch     watch(cost ? &cost->exchange : nullptr);
   const int           rank = Utilities::MPI::this_mpi_process(discretization.communicator);
-  std::vector<double> least(2, std::numeric_limits<double>::infinity());
+  std::vector<double> least(3, std::numeric_limits<double>::infinity());
   for (const BlockState &record : state.blocks)
     {
       const PointData &points = record.points;
       // a step that is not a number comes with a failure
       least[0] = std::min(least[0], std::isnan(points.stable_step) ? 0. : points.stable_step);
+      least[2] = std::min(least[2], -points.largest_frequency);
       if (points.failed_cell != std::numeric_limits<unsigned int>::max())
         least[1] = rank;
     }
   Utilities::MPI::min(least, discretization.communicator, least);
   PointLimits<dim> limits;
   limits.stable_step = least[0];
+  limits.crossing    = 2. * std::sqrt(dim / -least[2]);
   limits.failed      = std::isfinite(least[1]);
   limits.failed_rank = limits.failed ? static_cast<int>(least[1]) : -1;
   return limits;

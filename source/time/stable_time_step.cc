@@ -29,7 +29,7 @@ void StableTimeStep<dim>::declare_parameters(Parameters &parameters)
   parameters.add_quantity("Largest step", largest, "s", non_negative, "Upper limit, for accuracy in time; 0 for none.");
   parameters.add_quantity("Smallest step", least, "s", non_negative,
                           "Where materials have memory or strains are finite: a run that needs shorter ones ends with "
-                          "a message; 0 takes a hundred-millionth of the end time.");
+                          "a message; 0 takes a millionth of a millionth of the end time.");
 }
 
 template <int dim>

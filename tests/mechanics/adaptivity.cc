@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(transfer_keeps_polynomials, *label("parallel"))
         transfer.interpolate();
         transfer.next(mesh.positions);
         make_consistent(mesh, mesh.positions);
-        field = mesh.new_vector();
+        field.reinit(mesh.vector_partitioner);
         transfer.next(field);
         make_consistent(mesh, field);
         double worst = 0.;

@@ -94,7 +94,7 @@ public:
         std::vector<VectorType *> out;
         for (VectorType &scalar : scalars)
           {
-            scalar = discretization.new_scalar();
+            scalar.reinit(discretization.node_partitioner);
             out.push_back(&scalar);
           }
         transfer.interpolate(out);

@@ -5,13 +5,14 @@
 #include <arenite/mesh/parallel_triangulation.h>
 #include <arenite/time/stable_time_step.h>
 
+#include <limits>
 #include <memory>
 
 namespace Arenite
 {
 /// Decides when and where the mesh changes, and carries the fields over.
 ///
-/// Cells whose indicator exceeds a part of its global maximum (at least 2 % of the largest so far) are the front. They and `Buffer layers` of cells around them are
+/// Cells one of whose indicators exceeds a part of its global maximum (at least 2 % of the largest so far) are the front. They and `Buffer layers` of cells around them are
 /// refined to the finest level; cells outside with a small indicator are coarsened, never below the initial mesh. The mesh is
 /// adapted again before a P wave has crossed the buffer, so that the front never meets a coarse cell.
 ///
@@ -33,7 +34,10 @@ public:
   void initial_refinement(Triangulation &, Discretization<dim> &,
                           const std::vector<dealii::types::boundary_id> &loaded);
 
-  bool due(const double time) const { return active() && time >= next_time; }
+  /// A step of length @p dt was done, in which a P wave would need @p crossing for the smallest cell of blocks that store points.
+  void follow(const double dt, const double crossing) { crossed += dt / std::min(crossing, crossing_at_rest); }
+
+  bool due() const { return active() && crossed >= std::max(layers - 1., 0.5); }
 
   /// Flags for the present state. Returns whether the mesh will change on any process. Collective. @p count: the fields come from
   /// a run on the present mesh, so that coarse cells in the front are ones that it has met.
@@ -47,25 +51,33 @@ public:
   /// everything. The stable step still has to be updated.
   void execute(Triangulation &, Dynamics<dim> &, State<dim> &, StableTimeStep<dim> &) const;
 
-  /// Set the time of the next adaptation from the buffer's thickness.
-  void schedule(const Dynamics<dim> &, double time);
+  /// The buffer is whole: the next adaptation is due when a P wave may have crossed all of its layers but one.
+  void schedule(const Dynamics<dim> &);
 
   unsigned int max_passes() const { return levels; }
 
 private:
+  void obey_boxes(const Discretization<dim> &, std::vector<bool> &front, std::vector<bool> &coarse) const;
   void grow(Triangulation &, std::vector<bool> &marked) const;
   void share_flags(Triangulation &) const;
   void check_size(const Triangulation &, double time) const;
   void flag(Triangulation &, const std::vector<bool> &front, const std::vector<bool> &quiet) const;
 
-  std::string                               type = "wave front";
-  std::unique_ptr<RefinementIndicator<dim>> kind;
-  std::vector<std::string>                  boundary_names{"auto"};
-  std::vector<dealii::types::boundary_id>   initial_boundaries;
-  bool                                      automatic_boundaries = true, refine_geometry = false;
-  unsigned int                              levels = 0, base_level = 0, layers = 2, cell_limit = 50000000;
-  double                                    refine_above = 0.2, coarsen_below = 0.05, next_time = 0.;
-  float                                     peak  = 0.f; ///< largest indicator so far
-  unsigned long                             n_met = 0;
+  struct Indicator
+  {
+    std::unique_ptr<RefinementIndicator<dim>> kind;
+    float                                     peak = 0.f; ///< largest so far
+  };
+
+  std::vector<std::string>                types{"wave front"};
+  std::vector<Indicator>                  indicators;
+  std::vector<dealii::Point<dim>>         fine_boxes, coarse_boxes; ///< two corners each
+  std::vector<std::string>                boundary_names{"auto"};
+  std::vector<dealii::types::boundary_id> initial_boundaries;
+  bool                                    automatic_boundaries = true, refine_geometry = false;
+  unsigned int                            levels = 0, base_level = 0, layers = 2, cell_limit = 50000000;
+  double                                  refine_above = 0.2, coarsen_below = 0.05;
+  double crossed = 0., crossing_at_rest = std::numeric_limits<double>::infinity(); ///< layers; [s] of the smallest cell
+  unsigned long n_met = 0;
 };
 } // namespace Arenite

@@ -23,6 +23,9 @@ struct CellBatches
 
   unsigned int size() const { return part_begin[3]; }
 
+  /// Of all blocks on this process.
+  unsigned int n_cells() const { return static_cast<unsigned int>(place_of_cell.size()); }
+
   /// batch W + lane of a cell, invalid if it is of another block.
   unsigned int place(const unsigned int cell) const { return place_of_cell[cell]; }
 

@@ -70,6 +70,11 @@ public:
     return total;
   }
 
+  bool contains(const unsigned int cell) const override
+  {
+    return batches.place(cell) != dealii::numbers::invalid_unsigned_int;
+  }
+
   void add_mass(VectorType &mass) const override
   {
     for (unsigned int b = 0; b < batches.size(); ++b)
@@ -81,6 +86,17 @@ public:
           for (int l = 0; l < batches.active[b]; ++l)
             mass.local_element(entries(b)[n * W + l] / dim) += law.density * lane(volume[n], l);
       }
+  }
+
+  void cell_mass(const unsigned int cell, std::vector<double> &mass) const override
+  {
+    const unsigned int place = batches.place(cell);
+    Number             x[dim][n_nodes], volume[n_nodes];
+    load(place / W, positions->begin(), x);
+    Element::nodal_volume(x, volume);
+    mass.resize(n_nodes);
+    for (int n = 0; n < n_nodes; ++n)
+      mass[n] = law.density * lane(volume[n], place % W);
   }
 
   void inverse_size_squared(dealii::Vector<double> &per_cell) const override
@@ -109,7 +125,7 @@ public:
 
   bool uses_velocity() const override { return viscous; }
 
-  void reinit_state(BlockState &record) const override
+  void reinit_state(BlockState &record, bool) const override
   {
     record.amplitude.resize(viscous ? batches.size() * n_amplitudes * W : 0, 0.);
   }

@@ -43,6 +43,42 @@ enum class CellPart : unsigned int
   inner_second = 2  ///< while ghost forces arrive
 };
 
+/// How the numbers lie that a block keeps for one cell and that move with the cell to another process, mesh or file: [point][value], then
+/// those of the cell itself. Points are a tensor product in the unit cell, the first direction fastest.
+struct CellRecord
+{
+  /// What becomes of a number of a cell when the cell is halved, and how that of the whole follows from its parts.
+  struct OfCell
+  {
+    double to_child;
+    bool   sums; ///< the parts; otherwise the largest
+    double to_parent;
+  };
+
+  std::vector<double> points, weights; ///< along each direction of [0,1]; empty if the block keeps nothing
+  unsigned int        n_values = 0;    ///< of a point: six of the stress first, the reference volume last [m^3]
+  std::vector<OfCell> of_cell;
+
+  unsigned int n_points(const int dim) const
+  {
+    unsigned int n = points.empty() ? 0 : 1;
+    for (int d = 0; d < dim; ++d)
+      n *= static_cast<unsigned int>(points.size());
+    return n;
+  }
+  unsigned int size(const int dim) const
+  {
+    return n_points(dim) * n_values + static_cast<unsigned int>(of_cell.size());
+  }
+};
+
+/// What indicators ask of cells.
+enum class CellQuantity
+{
+  bulk_viscosity, ///< largest |q| of its points [Pa]
+  dissipation     ///< by the law [W/m^3]
+};
+
 /// Energies of one material block on this process [J]. A law with energies per reference volume closes the balance
 ///
 ///   work = d(strain) + d(dissipated) + d(bulk viscosity) + d(hourglass)
@@ -86,8 +122,23 @@ public:
   /// True if stress and history of every point are stored.
   virtual bool stores_points() const { return false; }
 
-  /// Room for what the block keeps in a state, at rest.
-  virtual void reinit_state(BlockState &) const {}
+  /// Room for what the block keeps in a state, at rest; without @p at_rest it waits for unpack().
+  virtual void reinit_state(BlockState &, bool /*at_rest*/ = true) const {}
+
+  /// Whether a cell of Discretization::cells() is one of this block.
+  virtual bool contains(unsigned int cell) const = 0;
+
+  /// What moves with cells, and its way from and to the state; @p values as the record says. The sums of BlockState stay behind.
+  virtual CellRecord cell_record() const { return {}; }
+  virtual void       pack(const BlockState &, unsigned int /*cell*/, double       */*values*/) const {}
+  virtual void       unpack(BlockState &, unsigned int /*cell*/, const double       */*values*/) const {}
+
+  /// After all cells were unpacked on a new mesh: the law brings points of the @p changed ones, new or moved, back to admissible states; hourglass forces
+  /// of these cells, stored energy and stable step are taken anew from displacement, velocity and stress. No time passes.
+  virtual void restore(const State<dim> &, BlockState &, const std::vector<unsigned int> & /*changed*/) const {}
+
+  /// A quantity of each cell of the block; the others are left alone.
+  virtual void cell_values(const BlockState &, CellQuantity, dealii::Vector<float> & /*per_cell*/) const {}
 
   /// Set an entry of the history at all points of each cell. @return false if the points have no such entry.
   virtual bool set_history(BlockState &, const std::string & /*name*/,
@@ -123,6 +174,9 @@ public:
 
   /// mass += integral of rho N_i, one entry per node.
   virtual void add_mass(VectorType &mass) const = 0;
+
+  /// The same of one cell: [node].
+  virtual void cell_mass(unsigned int cell, std::vector<double> &mass) const = 0;
 
   /// Squared Frobenius norm of the inverse Jacobian of each cell of the block, at its smallest point [1/m^2].
   virtual void inverse_size_squared(dealii::Vector<double> &per_cell) const = 0;

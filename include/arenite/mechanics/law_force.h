@@ -6,6 +6,7 @@
 #include <arenite/mechanics/internal_force.h>
 #include <arenite/mechanics/point_motion.h>
 #include <arenite/mechanics/point_operators.h>
+#include <arenite/mechanics/point_packing.h>
 #include <arenite/mechanics/present_shape.h>
 
 #include <algorithm>
@@ -65,12 +66,11 @@ public:
     batches.reinit(discretization, block);
     elastic->reinit(discretization);
     as_fluid->reinit(discretization);
-    find_ratios(discretization);
   }
 
   bool stores_points() const override { return true; }
 
-  void reinit_state(BlockState &record) const override
+  void reinit_state(BlockState &record, const bool at_rest) const override
   {
     PointData        &points = record.points;
     const std::size_t n      = std::size_t(batches.size()) * n_points * W;
@@ -82,6 +82,11 @@ public:
     points.wave_speed.resize(n, 0.);
     points.stored.resize(n, 0.);
     points.frequency.resize(batches.size() * W, 0.);
+    points.inverse_step.resize(batches.size() * W, 0.);
+    points.ratio.resize(batches.size() * W, 0.);
+    points.dissipation.resize(batches.size() * W, 0.);
+    if (at_rest)
+      find_ratios(points);
     const std::vector<double> start = law->initial_history();
     for (std::size_t point = 0; point < n / W; ++point)
       for (unsigned int h = 0; h < n_history; ++h)
@@ -92,6 +97,113 @@ public:
         record.amplitude.resize(std::size_t(batches.size()) * n_amplitudes * W, 0.);
         points.hourglass.resize(batches.size() * W, 0.);
       }
+  }
+
+  CellRecord cell_record() const override
+  {
+    CellRecord record;
+    Operators::lines(record.points, record.weights);
+    record.n_values = packing.n_values() + 1;
+    record.of_cell  = packing.of_cell(dim);
+    return record;
+  }
+
+  void pack(const BlockState &record, const unsigned int cell, double *values) const override
+  {
+    const unsigned int place = batches.place(cell), batch = place / W;
+    Number             x[dim][n_nodes];
+    gather<dim, W, n_nodes>(positions->begin(), entries(batch), x);
+    const Operators operators(x);
+    for (int q = 0; q < n_points; ++q)
+      values[(q + 1) * (packing.n_values() + 1) - 1] = lane(operators.weight[q], place % W);
+    packing.exchange<true>(record, place, values);
+  }
+
+  void unpack(BlockState &record, const unsigned int cell, const double *values) const override
+  {
+    packing.exchange<false>(record, batches.place(cell), values);
+  }
+
+  void restore(const State<dim> &state, BlockState &record, const std::vector<unsigned int> &changed) const override
+  {
+    PointData &points        = record.points;
+    points.step              = state.step;
+    points.stored_energy     = 0.;
+    points.stable_step       = std::numeric_limits<double>::infinity();
+    points.largest_frequency = 0.;
+    std::vector<bool> renewed(std::size_t(batches.size()) * W, false);
+    for (const unsigned int cell : changed)
+      if (batches.place(cell) != dealii::numbers::invalid_unsigned_int)
+        renewed[batches.place(cell)] = true;
+    for (unsigned int batch = 0; batch < batches.size(); ++batch)
+      {
+        Number    x[dim][n_nodes], u[dim][n_nodes], H[n_points][dim][dim], h[n_points];
+        Motion    motion[n_points];
+        Increment step;
+        gather<dim, W, n_nodes>(positions->begin(), entries(batch), x);
+        gather<dim, W, n_nodes>(state.displacement.begin(), entries(batch), u);
+        gather<dim, W, n_nodes>(state.half_velocity.begin(), entries(batch), step.u);
+        for (int c = 0; c < dim; ++c)
+          for (int n = 0; n < n_nodes; ++n)
+            step.u[c][n] *= Number(state.dt_last);
+        const Operators operators(x);
+        operators.gradients(step.u, step.H, step.h);
+        operators.gradients(u, H, h);
+        for (int q = 0; q < n_points; ++q)
+          {
+            const Number zero[dim][dim] = {};
+            move(H[q], zero, h[q], Number(0.), motion[q]);
+          }
+        if constexpr (Element::mean_dilatation)
+          take_mean_volumes(operators, motion);
+        const auto first = renewed.begin() + std::ptrdiff_t(batch) * W;
+        if (std::find(first, first + W, true) != first + W)
+          {
+            const BatchCopy kept(packing, record, batch);
+            const Number    loss = settle(batch, operators, motion, record);
+            if constexpr (Element::has_hourglass_control)
+              {
+                Amplitudes force, dq;
+                hourglass_forces(batch, operators, u, H, h, step, Number(law->density()) / motion[0].J, state.dt_last,
+                                 record, force, dq);
+                for (int i = 0; i < dim; ++i)
+                  for (int a = 0; a < Element::n_patterns; ++a)
+                    store<Number>(force[i][a], amplitude(record, batch, i, a));
+              }
+            for (int l = 0; l < W; ++l)
+              if (!first[l])
+                kept.give_back(record, batch * W + l);
+              else if (l < batches.active[batch])
+                points.dissipated += lane(loss, l);
+          }
+        for (int l = 0; l < batches.active[batch]; ++l)
+          {
+            for (int q = 0; q < n_points; ++q)
+              points.stored_energy += lane(operators.weight[q], l) *
+                                      (finite || !law->energy_per_present_volume() ? lane(motion[q].J, l) : 1.) *
+                                      points.stored[(std::size_t(batch) * n_points + q) * W + l];
+            note_step(points, batch, l);
+          }
+      }
+  }
+
+  void cell_values(const BlockState &record, const CellQuantity quantity,
+                   dealii::Vector<float> &per_cell) const override
+  {
+    const PointData &points = record.points;
+    for (unsigned int place = 0; place < batches.cells.size(); ++place)
+      if (batches.cells[place] != dealii::numbers::invalid_unsigned_int)
+        {
+          double value = 0.;
+          if (quantity == CellQuantity::dissipation)
+            value = std::abs(points.dissipation[place]);
+          else
+            for (int q = 0; q < n_points; ++q)
+              value =
+                std::max(value,
+                         std::abs(points.bulk_viscosity[(std::size_t(place / W) * n_points + q) * W + place % W]));
+          per_cell[batches.cells[place]] = static_cast<float>(value);
+        }
   }
 
   bool set_history(BlockState &record, const std::string &name,
@@ -163,7 +275,13 @@ public:
     return total;
   }
 
+  bool contains(const unsigned int cell) const override
+  {
+    return batches.place(cell) != dealii::numbers::invalid_unsigned_int;
+  }
+
   void add_mass(VectorType &mass) const override { elastic->add_mass(mass); }
+  void cell_mass(const unsigned int cell, std::vector<double> &mass) const override { elastic->cell_mass(cell, mass); }
   void inverse_size_squared(dealii::Vector<double> &per_cell) const override
   {
     elastic->inverse_size_squared(per_cell);
@@ -249,13 +367,12 @@ private:
   }
 
   /// Ratios between the largest eigenvalue of each element and c^2 |A|^2.
-  void find_ratios(const Discretization<dim> &discretization)
+  void find_ratios(PointData &points) const
   {
-    dealii::Vector<double> solid(discretization.cells().size()), fluid = solid;
+    dealii::Vector<double> solid(batches.n_cells()), fluid = solid;
     elastic->largest_eigenvalue(solid);
     as_fluid->largest_eigenvalue(fluid);
     const double c2 = std::pow(material().p_wave_speed(), 2);
-    ratio.resize(batches.size() * W, 0.);
     for (unsigned int batch = 0; batch < batches.size(); ++batch)
       {
         Number x[dim][n_nodes], largest = Number(0.);
@@ -267,7 +384,7 @@ private:
           {
             const unsigned int cell = batches.cells[batch * W + l];
             // power iterations end up to 1 % below, and cells change their shape
-            ratio[batch * W + l] = 1.03 * std::max(solid[cell], fluid[cell]) / (c2 * lane(largest, l));
+            points.ratio[batch * W + l] = 1.03 * std::max(solid[cell], fluid[cell]) / (c2 * lane(largest, l));
           }
       }
   }
@@ -357,10 +474,11 @@ private:
     points.substeps = std::max(points.substeps, law_batch.substeps);
 
     // energies, the step
-    const bool   per_present_volume = law->energy_per_present_volume();
-    Number       energy = Number(0.), loss = Number(0.), viscous = Number(0.), volume_change = Number(0.);
+    const bool per_present_volume = law->energy_per_present_volume();
+    Number     energy = Number(0.), loss = Number(0.), viscous = Number(0.), volume_change = Number(0.),
+           volume          = Number(0.);
     Number       frequency = Number(0.), inverse_step = Number(0.);
-    const Number shape = load<Number>(&ratio[batch * W]);
+    const Number shape = load<Number>(&points.ratio[batch * W]);
     for (int q = 0; q < n_points; ++q)
       {
         const std::size_t at = (first + q) * W;
@@ -370,6 +488,7 @@ private:
         energy += w * (with_volume ? Number(J * stored) : stored);
         loss += w * (with_volume ? Number(Number(0.5) * (J + J_old) * dissipated[q]) : dissipated[q]);
         viscous += w * viscous_work[q];
+        volume += w;
         if (finite && per_present_volume)
           volume_change -= w * Number(0.5) * (stored_old[q] + stored) * (J - J_old);
 
@@ -391,7 +510,9 @@ private:
       Arenite::select<Number>(last > Number(0.), Arenite::min<Number>(frequency / last, Number(4.)), Number(1.));
     inverse_step *= square_root(Arenite::max<Number>(growth, Number(1.)));
     store<Number>(frequency, &points.frequency[batch * W]);
-    inverse_step     = Arenite::max<Number>(inverse_step, Number(largest_rate * Number(1. / largest_volume_change)));
+    inverse_step = Arenite::max<Number>(inverse_step, Number(largest_rate * Number(1. / largest_volume_change)));
+    store<Number>(inverse_step, &points.inverse_step[batch * W]);
+    store<Number>(loss / volume * Number(dt_last > 0. ? 1. / dt_last : 0.), &points.dissipation[batch * W]);
     Number hourglass = Number(0.);
     if constexpr (Element::has_hourglass_control)
       hourglass = advance_hourglass(batch, operators, u, H, h, step, density[0], dt_last, record);
@@ -403,13 +524,53 @@ private:
         points.viscous_work += lane(viscous, l);
         points.volume_change += lane(volume_change, l);
         points.hourglass_work += lane(hourglass, l);
-        const double stable = 1. / lane(inverse_step, l);
-        if (stable < points.stable_step)
-          {
-            points.stable_step   = stable;
-            points.limiting_cell = batches.cells[batch * W + l];
-          }
+        note_step(points, batch, l);
       }
+  }
+
+  void note_step(PointData &points, const unsigned int batch, const int lane) const
+  {
+    const double stable = 1. / points.inverse_step[batch * W + lane];
+    if (stable < points.stable_step)
+      {
+        points.stable_step   = stable;
+        points.limiting_cell = batches.cells[batch * W + lane];
+      }
+    points.largest_frequency = std::max(points.largest_frequency, points.frequency[batch * W + lane]);
+  }
+
+  /// The law takes the points of a batch to admissible states, with their stored energy and wave speed; no time passes. @return what it
+  /// dissipated of the cells' energies
+  Number settle(const unsigned int batch, const Operators &operators, const Motion (&motion)[n_points],
+                BlockState &record) const
+  {
+    PointData        &points = record.points;
+    const std::size_t first  = std::size_t(batch) * n_points;
+    Number            strain[n_points][6], density[n_points], dissipated[n_points];
+    for (int q = 0; q < n_points; ++q)
+      {
+        for (int k = 0; k < 6; ++k)
+          strain[q][k] = Number(0.);
+        density[q] = Number(law->density()) / Arenite::max<Number>(motion[q].J, Number(1e-9));
+      }
+    PointBatch law_batch;
+    law_batch.n_points    = n_points;
+    law_batch.dt          = std::numeric_limits<double>::min();
+    law_batch.strain      = reinterpret_cast<const double *>(strain);
+    law_batch.density_old = reinterpret_cast<const double *>(density);
+    law_batch.density     = reinterpret_cast<const double *>(density);
+    law_batch.stress      = &points.stress[6 * first * W];
+    law_batch.history     = n_history > 0 ? &points.history[n_history * first * W] : nullptr;
+    law_batch.wave_speed  = &points.wave_speed[first * W];
+    law_batch.stored      = &points.stored[first * W];
+    law_batch.dissipated  = reinterpret_cast<double *>(dissipated);
+    law->after_transfer(law_batch);
+    law->update(law_batch);
+    Number loss = Number(0.);
+    for (int q = 0; q < n_points; ++q)
+      loss +=
+        operators.weight[q] * dissipated[q] * (finite || !law->energy_per_present_volume() ? motion[q].J : Number(1.));
+    return loss;
   }
 
   static ARENITE_INLINE Number law_sum(const double *stress)
@@ -434,30 +595,47 @@ private:
       motion[q].set_volume(J_old / volume, J / volume, finite);
   }
 
-  /// Forces on the patterns at the end of the step. Stiffness: k = coefficient rho c^2 s, with s the part of the elastic deviatoric
-  /// stress that the point carries, |s|/(2 G |e|), so that soil that flows is not held by its hourglass control; at least a hundredth.
-  /// @return work of the step
+  /// Forces on the patterns. Stiffness: k = coefficient rho c^2 s, with s the part of the elastic deviatoric stress that the point carries,
+  /// |s|/(2 G |e|), so that soil that flows is not held by its hourglass control; at least a hundredth.
+  void hourglass_forces(const unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
+                        const Number (&H)[n_points][dim][dim], const Number (&h)[n_points], const Increment &step,
+                        const Number &density, const double dt_last, const BlockState &record, Amplitudes &force,
+                        Amplitudes &dq) const
+  {
+    Amplitudes   q;
+    const Number c = load<Number>(&record.points.wave_speed[batch * W]);
+    operators.patterns(u, H, q);
+    operators.patterns(step.u, step.H, dq);
+    const Number coefficient = Number(element.hourglass_coefficient) * density;
+    const Number scale =
+      viscous_hourglass
+        ? coefficient * c * operators.pattern_viscosity() * Number(dt_last > 0. ? 1. / dt_last : 0.)
+        : coefficient * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, h, record.points);
+    for (int i = 0; i < dim; ++i)
+      for (int a = 0; a < Element::n_patterns; ++a)
+        force[i][a] = scale * (viscous_hourglass ? dq[i][a] : q[i][a]);
+  }
+
+  double *amplitude(BlockState &record, const unsigned int batch, const int i, const int a) const
+  {
+    return &record.amplitude[(std::size_t(batch) * n_amplitudes + i * Element::n_patterns + a) * W];
+  }
+
+  /// Hourglass forces at the end of the step. @return their work in it
   Number advance_hourglass(const unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
                            const Number (&H)[n_points][dim][dim], const Number (&h)[n_points], const Increment &step,
                            const Number &density, const double dt_last, BlockState &record) const
   {
-    PointData   &points = record.points;
-    Amplitudes   q, dq;
-    const Number c = load<Number>(&points.wave_speed[batch * W]);
-    operators.patterns(u, H, q);
-    operators.patterns(step.u, step.H, dq);
-    const Number coefficient = Number(element.hourglass_coefficient) * density;
-    const Number scale       = viscous_hourglass
-                                 ? coefficient * c * operators.pattern_viscosity() * Number(dt_last > 0. ? 1. / dt_last : 0.)
-                                 : coefficient * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, h, points);
-    Number       work        = Number(0.);
+    PointData &points = record.points;
+    Amplitudes force, dq;
+    hourglass_forces(batch, operators, u, H, h, step, density, dt_last, record, force, dq);
+    Number work = Number(0.);
     for (int i = 0; i < dim; ++i)
       for (int a = 0; a < Element::n_patterns; ++a)
         {
-          double *stored     = &record.amplitude[(std::size_t(batch) * n_amplitudes + i * Element::n_patterns + a) * W];
-          const Number force = scale * (viscous_hourglass ? dq[i][a] : q[i][a]);
-          work += Number(0.5) * (load<Number>(stored) + force) * dq[i][a];
-          store<Number>(force, stored);
+          double *stored = amplitude(record, batch, i, a);
+          work += Number(0.5) * (load<Number>(stored) + force[i][a]) * dq[i][a];
+          store<Number>(force[i][a], stored);
         }
     store<Number>(load<Number>(&points.hourglass[batch * W]) + work, &points.hourglass[batch * W]);
     return work;
@@ -590,6 +768,6 @@ private:
   std::unique_ptr<InternalForce<dim>> elastic, as_fluid; ///< for mass, eigenvalues and forces without points
   const VectorType                   *positions = nullptr;
   CellBatches<dim, W>                 batches;
-  dealii::AlignedVector<double>       ratio; ///< [batch][lane], r of the largest eigenvalue
+  const PointPacking packing{n_points, W, n_history, Element::has_hourglass_control ? n_amplitudes : 0};
 };
 } // namespace Arenite

@@ -3,6 +3,8 @@
 #include <arenite/mechanics/mean_dilatation_element.h>
 #include <arenite/mechanics/spectral_element.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <vector>
 
 namespace Arenite
@@ -16,6 +18,7 @@ namespace Arenite
 /// of the hoop directions.
 ///
 ///   n_points, weight[q] [m^3], metric[q][k][j] = d xi_k/d X_j [1/m]
+///   lines(places, weights)  of the points, a tensor product, the first direction fastest
 ///   length_of_unit      length of the reference coordinate between neighbouring nodes, the same in all directions on average
 ///   gradients(u, H, h)  of nodal values u, which are overwritten
 ///   forces(P, P_tt, f)  P and P_tt are overwritten
@@ -30,6 +33,14 @@ struct PointOperators<FullElement<dim, n_hoop>, V>
   static constexpr double length_of_unit = 2.; ///< the reference cell is [-1,1]^dim
 
   V weight[n_points], metric[n_points][dim][dim], inverse_r[n_hoop > 0 ? n_points : 1];
+
+  /// Places and weights of the points along each direction of [0,1].
+  static void lines(std::vector<double> &places, std::vector<double> &weights)
+  {
+    const double at = 0.5 / 1.7320508075688772935;
+    places          = {0.5 - at, 0.5 + at};
+    weights         = {0.5, 0.5};
+  }
 
   explicit ARENITE_INLINE PointOperators(const V (&x)[dim][n_nodes])
   {
@@ -123,6 +134,15 @@ struct PointOperators<SpectralElement<dim, degree, n_hoop>, V>
 
   V weight[n_points], metric[n_points][dim][dim], inverse_r[n_hoop > 0 ? n_points : 1];
 
+  static void lines(std::vector<double> &places, std::vector<double> &weights)
+  {
+    const dealii::QGaussLobatto<1> rule(N);
+    places.clear();
+    for (const auto &point : rule.get_points())
+      places.push_back(point[0]);
+    weights = rule.get_weights();
+  }
+
   explicit ARENITE_INLINE PointOperators(const V (&x)[dim][n_nodes])
   {
     Element::for_each_node([&](const int n, const int *c) {
@@ -213,6 +233,12 @@ struct PointOperators<OnePointElement<dim, n_hoop>, V>
   V weight[1], metric[1][dim][dim];
   V x[dim][n_nodes], g[Own::n][dim],
     t[n_nodes]; ///< coordinate modes; integrals of the gradients and of 1/R of the modes
+
+  static void lines(std::vector<double> &places, std::vector<double> &weights)
+  {
+    places  = {0.5};
+    weights = {1.};
+  }
 
   explicit ARENITE_INLINE PointOperators(const V (&nodes)[dim][n_nodes])
   {

@@ -19,7 +19,11 @@ struct PointData
   dealii::AlignedVector<double> bulk_viscosity; ///< [batch][point][lane], q [Pa]
   dealii::AlignedVector<double> wave_speed;     ///< [batch][point][lane] [m/s]
   dealii::AlignedVector<double> stored;         ///< [batch][point][lane], per present volume [J/m^3]
-  dealii::AlignedVector<double> frequency; ///< [batch][lane], square of the cell's largest, without damping [1/s^2]
+  dealii::AlignedVector<double> frequency;    ///< [batch][lane], square of the cell's largest, without damping [1/s^2]
+  dealii::AlignedVector<double> inverse_step; ///< [batch][lane], of the longest stable step of the cell [1/s]
+  dealii::AlignedVector<double>
+    dissipation;                           ///< [batch][lane], of the law in the last step, per volume and time [W/m^3]
+  dealii::AlignedVector<double> ratio;     ///< [batch][lane], largest eigenvalue of the cell over c^2 |A|^2
   dealii::AlignedVector<double> hourglass; ///< [batch][lane], work that went into the patterns of the cell [J]
 
   bool         stores_points = false;
@@ -33,9 +37,10 @@ struct PointData
   double volume_change = 0.; ///< see BlockEnergy
 
   // of the last step, over the points of this process
-  double       stable_step   = std::numeric_limits<double>::infinity(); ///< [s]
-  unsigned int limiting_cell = 0;                                       ///< that allows no longer step
-  double       substeps      = 1.; ///< most parts into which the law divided a step, since the start
+  double       stable_step       = std::numeric_limits<double>::infinity(); ///< [s]
+  double       largest_frequency = 0.; ///< square of the largest of all cells [1/s^2]
+  unsigned int limiting_cell     = 0;  ///< that allows no longer step
+  double       substeps          = 1.; ///< most parts into which the law divided a step, since the start
   unsigned int failed_cell =
     std::numeric_limits<unsigned int>::max(); ///< one where the state is no state; none if the largest number
 
@@ -74,10 +79,11 @@ struct State
 
   void reinit(const Discretization<dim> &discretization)
   {
-    displacement  = discretization.new_vector();
-    half_velocity = discretization.new_vector();
-    force         = discretization.new_vector();
-    inverse_mass  = discretization.new_vector();
+    // not by assignment, which keeps the old ghosts where the owned ranges happen to be the same
+    displacement.reinit(discretization.vector_partitioner);
+    half_velocity.reinit(discretization.vector_partitioner);
+    force.reinit(discretization.vector_partitioner);
+    inverse_mass.reinit(discretization.vector_partitioner);
     blocks.clear();
   }
 };

@@ -24,6 +24,7 @@ template <int dim>
 struct PointLimits
 {
   double stable_step = 0.;    ///< [s]
+  double crossing    = 0.;    ///< time in which a P wave crosses the smallest cell, for a cube: 2 sqrt(dim)/omega [s]
   bool   failed      = false; ///< some point is inverted or not finite
   int    failed_rank = -1;
 };
@@ -51,8 +52,9 @@ public:
            std::vector<std::unique_ptr<Load<dim>>> loads, Constraints<dim> &constraints,
            const MaterialOfBlock &material_of_block = {});
 
-  /// Rebuild everything that depends on the mesh; sizes the state, keeps its time.
-  void reinit(State<dim> &);
+  /// Rebuild everything that depends on the mesh; sizes the state, keeps its time. What points store is at rest, or without @p at_rest
+  /// waits for what comes from another mesh.
+  void reinit(State<dim> &, bool at_rest = true);
 
   /// state.force = f_n. Ghost exchange runs beside the cells that do not need it, unless @p overlap is off.
   void compute_force(State<dim> &, bool overlap = true);

@@ -46,7 +46,7 @@ public:
   void limit_first(double speed);
 
   /// Step below which a run is given up, of a run of this length [s].
-  double smallest(double end_time) const { return least > 0. ? least : 1e-8 * end_time; }
+  double smallest(double end_time) const { return least > 0. ? least : 1e-12 * end_time; }
 
   /// Step to use: divides the time that is left into equal parts, so that the end is hit without a small last step. Where it follows
   /// the points, it grows from the last one, @p dt_last, by a limited factor.

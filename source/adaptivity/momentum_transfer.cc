@@ -1,0 +1,115 @@
+#include <arenite/adaptivity/momentum_transfer.h>
+
+namespace Arenite
+{
+using namespace dealii;
+
+template <int dim>
+MomentumTransfer<dim>::MomentumTransfer(ParallelTriangulation<dim> &triangulation, const Dynamics<dim> &dynamics,
+                                        const VectorType &velocity)
+  : dynamics(dynamics)
+  , old([&] {
+    std::vector<Numbers> result(triangulation.n_active_cells());
+    const auto          &cells = dynamics.discretization.cells();
+    for (unsigned int cell = 0; cell < cells.size(); ++cell)
+      {
+        const Tensor<1, dim> p = momentum(cell, velocity);
+        result[cells[cell]->active_cell_index()].assign(p.begin_raw(), p.end_raw());
+      }
+    return result;
+  }())
+  , transport(
+      triangulation, dynamics.discretization, [this](const Cell &cell, bool) { return old[cell->active_cell_index()]; },
+      [](const std::vector<Numbers> &children) {
+        Numbers sum = children[0];
+        for (std::size_t child = 1; child < children.size(); ++child)
+          for (unsigned int c = 0; c < dim; ++c)
+            sum[c] += children[child][c];
+        return sum;
+      },
+      true)
+{}
+
+template <int dim>
+const std::vector<double> &MomentumTransfer<dim>::mass_of(const unsigned int cell)
+{
+  unsigned int b = 0;
+  while (!dynamics.blocks[b]->contains(cell))
+    ++b;
+  dynamics.blocks[b]->cell_mass(cell, mass);
+  return mass;
+}
+
+template <int dim>
+Tensor<1, dim> MomentumTransfer<dim>::momentum(const unsigned int cell, const VectorType &velocity)
+{
+  const unsigned int *nodes = dynamics.discretization.cell_nodes(cell);
+  Tensor<1, dim>      sum;
+  const auto         &m = mass_of(cell);
+  for (unsigned int i = 0; i < m.size(); ++i)
+    for (unsigned int c = 0; c < dim; ++c)
+      sum[c] += m[i] * velocity.local_element(dim * nodes[i] + c);
+  return sum;
+}
+
+template <int dim>
+void MomentumTransfer<dim>::restore(const State<dim> &state, VectorType &velocity)
+{
+  const Discretization<dim> &discretization = dynamics.discretization;
+  // the part of each component that is free
+  VectorType free = discretization.new_vector();
+  for (unsigned int c = 0; c < dim; ++c)
+    {
+      VectorType unit = discretization.new_vector();
+      for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+        unit.local_element(dim * node + c) = 1.;
+      dynamics.constraints.project(unit);
+      for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+        free.local_element(dim * node + c) = unit.local_element(dim * node + c);
+    }
+  make_consistent(discretization, free);
+
+  VectorType impulse = discretization.new_vector();
+  const auto spread  = [&](const std::vector<unsigned int> &cells, const Numbers &before) {
+    Tensor<1, dim> missing, total;
+    for (unsigned int c = 0; c < dim; ++c)
+      missing[c] = before[c];
+    for (const unsigned int cell : cells)
+      {
+        missing -= momentum(cell, velocity);
+        total += momentum(cell, free);
+      }
+    for (const unsigned int cell : cells)
+      {
+        const unsigned int *nodes = discretization.cell_nodes(cell);
+        const auto         &m     = mass_of(cell);
+        for (unsigned int i = 0; i < m.size(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            if (total[c] > 0.)
+              impulse.local_element(dim * nodes[i] + c) +=
+                missing[c] * m[i] * free.local_element(dim * nodes[i] + c) / total[c];
+      }
+  };
+  const std::vector<unsigned int> index = index_of_active_cells(discretization);
+  transport.unpack([&](const Cell &cell, const Numbers &before, const typename CellTransport<dim>::Change change) {
+    std::vector<unsigned int> cells;
+    if (change != CellTransport<dim>::Change::halved)
+      cells = {index[cell->active_cell_index()]};
+    else if (dim > 1) // on a line no node hangs, nothing is missing, and children may have different owners
+      for (unsigned int child = 0; child < cell->n_children(); ++child)
+        cells.push_back(index[cell->child(child)->active_cell_index()]);
+    spread(cells, before);
+  });
+  discretization.hanging.template condense<dim>(impulse.begin());
+  impulse.compress(VectorOperation::add);
+  discretization.hanging.template condense<dim>(impulse.begin());
+  for (unsigned int i = 0; i < velocity.locally_owned_size(); ++i)
+    velocity.local_element(i) += state.inverse_mass.local_element(i) * impulse.local_element(i);
+  dynamics.constraints.project(velocity);
+  make_consistent(discretization, velocity);
+}
+
+template class MomentumTransfer<1>;
+template class MomentumTransfer<2>;
+template class MomentumTransfer<3>;
+} // namespace Arenite
