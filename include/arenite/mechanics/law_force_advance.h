@@ -1,0 +1,253 @@
+#pragma once
+
+#include <arenite/mechanics/law_force.h>
+
+namespace Arenite
+{
+// How the points of a block go through a step; LawForce says what is computed.
+
+template <typename Element, int W>
+void LawForce<Element, W>::advance(const unsigned int batch, const Operators &operators,
+                                   const Number (&u)[dim][n_nodes], const Number (&H)[n_points][dim][dim],
+                                   const Number (&h)[n_points], const Increment &step, const double dt_last,
+                                   BlockState &record) const
+{
+  PointData   &points = record.points;
+  const double dt = dt_last > 0. ? dt_last : std::numeric_limits<double>::min(); // at rest: energy and wave speed only
+  const std::size_t first = std::size_t(batch) * n_points;
+  Motion            motion[n_points];
+  for (int q = 0; q < n_points; ++q)
+    move(H[q], step.H[q], h[q], step.h[q], motion[q]);
+  if constexpr (Element::mean_dilatation)
+    take_mean_volumes(operators, motion);
+
+  // kinematics, viscosity
+  Number strain[n_points][6], density_old[n_points], density[n_points], heat[n_points], stored_old[n_points],
+    dissipated[n_points], viscous_work[n_points], size[n_points]; // |A|^2
+  const double rho_0 = law->density(), b1 = element.linear_viscosity, b2 = element.quadratic_viscosity;
+  Number       largest_rate = Number(0.), viscosity[n_points];
+  for (int q = 0; q < n_points; ++q)
+    {
+      const std::size_t at = (first + q) * W;
+      const Motion     &m  = motion[q];
+      const Number      J  = Arenite::max<Number>(m.J, Number(1e-9)), // inverted points are reported below
+        J_old = Arenite::max<Number>(m.J_old, Number(1e-9)), volume_strain = trace(m.strain),
+                   D = volume_strain * Number(1. / dt);
+      for (int k = 0; k < 6; ++k)
+        strain[q][k] = m.strain[k];
+      density[q]     = Number(rho_0) / J;
+      density_old[q] = Number(rho_0) / J_old;
+      largest_rate   = Arenite::max<Number>(largest_rate, Arenite::absolute<Number>(D));
+
+      Number A[dim][dim];
+      Shape::metric(operators.metric[q], H[q], finite, A);
+      size[q]            = Shape::square_norm(A);
+      const Number q_old = load<Number>(&points.bulk_viscosity[at]);
+      Number       q_new = Number(0.);
+      viscosity[q]       = Number(0.);
+      if ((b1 > 0. || b2 > 0.) && dt_last > 0.)
+        {
+          const Number c           = load<Number>(&points.wave_speed[at]),
+                       l           = Number(Operators::length_of_unit) * Shape::length_along(m.strain, A),
+                       shortest    = Number(Operators::length_of_unit) * Shape::mean_length(A);
+          const auto   compression = D < Number(0.);
+          const Number linear      = density[q] * Arenite::min<Number>(l, shortest) * Number(b1) * c,
+                       quadratic   = density[q] * Number(b2 * b2) * l * l;
+          q_new                    = Arenite::select<Number>(compression, Number((quadratic * -D + linear) * -D),
+                                          Number(Number(element.viscosity_in_expansion ? -1. : 0.) * linear * D));
+          viscosity[q] =
+            (linear + Arenite::select<Number>(compression, Number(Number(-2.) * quadratic * D), Number(0.))) /
+            density[q];
+        }
+      store<Number>(q_new, &points.bulk_viscosity[at]);
+      viscous_work[q] =
+        Number(-0.5) * volume_strain * (finite ? Number(q_old * J_old + q_new * J) : Number(q_old + q_new));
+      heat[q]       = viscous_work[q] * Number(1. / rho_0);
+      stored_old[q] = load<Number>(&points.stored[at]);
+      if (finite)
+        {
+          m.turn(&points.stress[6 * at]);
+          if (law->tensor_history() >= 0)
+            m.turn(&points.history[n_history * at + law->tensor_history() * W]);
+        }
+    }
+
+  PointBatch law_batch;
+  law_batch.n_points    = n_points;
+  law_batch.dt          = dt;
+  law_batch.strain      = reinterpret_cast<const double *>(strain);
+  law_batch.density_old = reinterpret_cast<const double *>(density_old);
+  law_batch.density     = reinterpret_cast<const double *>(density);
+  law_batch.heat        = reinterpret_cast<const double *>(heat);
+  law_batch.stress      = &points.stress[6 * first * W];
+  law_batch.history     = n_history > 0 ? &points.history[n_history * first * W] : nullptr;
+  law_batch.wave_speed  = &points.wave_speed[first * W];
+  law_batch.stored      = &points.stored[first * W];
+  law_batch.dissipated  = reinterpret_cast<double *>(dissipated);
+  {
+    const Stopwatch watch(points.is_timed ? &points.law_seconds : nullptr);
+    law->update(law_batch);
+  }
+  points.substeps = std::max(points.substeps, law_batch.substeps);
+
+  // energies, the step
+  const bool per_present_volume = law->energy_per_present_volume();
+  Number energy = Number(0.), loss = Number(0.), viscous = Number(0.), volume_change = Number(0.), volume = Number(0.);
+  Number frequency = Number(0.), inverse_step = Number(0.);
+  const Number shape = load<Number>(&points.ratio[batch * W]);
+  for (int q = 0; q < n_points; ++q)
+    {
+      const std::size_t at = (first + q) * W;
+      const Number      w = operators.weight[q], J = motion[q].J, J_old = motion[q].J_old,
+                   stored = load<Number>(&points.stored[at]), c = load<Number>(&points.wave_speed[at]);
+      const bool with_volume = finite || !per_present_volume;
+      energy += w * (with_volume ? Number(J * stored) : stored);
+      loss += w * (with_volume ? Number(Number(0.5) * (J + J_old) * dissipated[q]) : dissipated[q]);
+      viscous += w * viscous_work[q];
+      volume += w;
+      if (finite && per_present_volume)
+        volume_change -= w * Number(0.5) * (stored_old[q] + stored) * (J - J_old);
+
+      const Number g = shape * size[q], nu = viscosity[q] + Number(law->viscosity_time()) * c * c, f = g * c * c;
+      frequency = Arenite::max<Number>(frequency, f);
+      // 1/dt = g (nu + sqrt(nu^2 + 4 c^2/g))/4
+      inverse_step =
+        Arenite::max<Number>(inverse_step,
+                             Number(Number(0.25) * (g * nu + square_root(Number(g * nu * g * nu + Number(4.) * f)))));
+      const Number sum  = law_sum(&points.stress[6 * at]) + c + stored;
+      const auto   good = J > Number(0.) && sum - sum == Number(0.);
+      if (any_of(!good))
+        for (int l = 0; l < batches.active[batch]; ++l)
+          if (!mask_lane(good, l) && batches.cells[batch * W + l] < points.failed_cell)
+            points.failed_cell = batches.cells[batch * W + l];
+    }
+  const Number last = load<Number>(&points.frequency[batch * W]);
+  const Number growth =
+    Arenite::select<Number>(last > Number(0.), Arenite::min<Number>(frequency / last, Number(4.)), Number(1.));
+  inverse_step *= square_root(Arenite::max<Number>(growth, Number(1.)));
+  store<Number>(frequency, &points.frequency[batch * W]);
+  inverse_step = Arenite::max<Number>(inverse_step, Number(largest_rate * Number(1. / largest_volume_change)));
+  store<Number>(inverse_step, &points.inverse_step[batch * W]);
+  store<Number>(loss / volume * Number(dt_last > 0. ? 1. / dt_last : 0.), &points.dissipation[batch * W]);
+  Number hourglass = Number(0.);
+  if constexpr (Element::has_hourglass_control)
+    hourglass = advance_hourglass(batch, operators, u, H, h, step, density[0], dt_last, record);
+  (void)u;
+  for (int l = 0; l < batches.active[batch]; ++l)
+    {
+      points.stored_energy += lane(energy, l);
+      points.dissipated += lane(loss, l);
+      points.viscous_work += lane(viscous, l);
+      points.volume_change += lane(volume_change, l);
+      points.hourglass_work += lane(hourglass, l);
+      note_step(points, batch, l);
+    }
+}
+
+template <typename Element, int W>
+void LawForce<Element, W>::hourglass_forces(const unsigned int batch, const Operators &operators,
+                                            const Number (&u)[dim][n_nodes], const Number (&H)[n_points][dim][dim],
+                                            const Number (&h)[n_points], const Increment &step, const Number &density,
+                                            const double dt_last, const BlockState &record, Amplitudes &force,
+                                            Amplitudes &dq) const
+{
+  Amplitudes   q;
+  const Number c = load<Number>(&record.points.wave_speed[batch * W]);
+  operators.patterns(u, H, q);
+  operators.patterns(step.u, step.H, dq);
+  const Number coefficient = Number(element.hourglass_coefficient) * density;
+  const Number scale =
+    viscous_hourglass ? coefficient * c * operators.pattern_viscosity() * Number(dt_last > 0. ? 1. / dt_last : 0.)
+                      : coefficient * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, h, record.points);
+  for (int i = 0; i < dim; ++i)
+    for (int a = 0; a < Element::n_patterns; ++a)
+      force[i][a] = scale * (viscous_hourglass ? dq[i][a] : q[i][a]);
+}
+
+template <typename Element, int W>
+typename LawForce<Element, W>::Number LawForce<Element, W>::advance_hourglass(
+  const unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
+  const Number (&H)[n_points][dim][dim], const Number (&h)[n_points], const Increment &step, const Number &density,
+  const double dt_last, BlockState &record) const
+{
+  PointData &points = record.points;
+  Amplitudes force, dq;
+  hourglass_forces(batch, operators, u, H, h, step, density, dt_last, record, force, dq);
+  Number work = Number(0.);
+  for (int i = 0; i < dim; ++i)
+    for (int a = 0; a < Element::n_patterns; ++a)
+      {
+        double *stored = amplitude(record, batch, i, a);
+        work += Number(0.5) * (load<Number>(stored) + force[i][a]) * dq[i][a];
+        store<Number>(force[i][a], stored);
+      }
+  store<Number>(load<Number>(&points.hourglass[batch * W]) + work, &points.hourglass[batch * W]);
+  return work;
+}
+
+template <typename Element, int W>
+void LawForce<Element, W>::integrate(const unsigned int batch, const Operators &operators,
+                                     const Number (&H)[n_points][dim][dim], const Number (&h)[n_points],
+                                     const BlockState &record, Number (&f)[dim][n_nodes]) const
+{
+  const PointData  &points = record.points;
+  const std::size_t first  = std::size_t(batch) * n_points;
+  Number            P[n_points][dim][dim], hoop[n_points];
+  Number            mean_pressure = Number(0.), mean_J = Number(1.);
+  if constexpr (Element::mean_dilatation)
+    find_means(batch, operators, H, h, points, mean_pressure, mean_J);
+  for (int q = 0; q < n_points; ++q)
+    {
+      const std::size_t at  = (first + q) * W;
+      const Number      vis = load<Number>(&points.bulk_viscosity[at]);
+      SymTensor<Number> s;
+      for (int k = 0; k < 6; ++k)
+        s[k] = load<Number>(&points.stress[6 * at + k * W]);
+      if constexpr (!Element::mean_dilatation)
+        s -= spherical(vis);
+      if (!finite)
+        {
+          if constexpr (Element::mean_dilatation)
+            s = deviator(s) - spherical(mean_pressure);
+          for (int i = 0; i < dim; ++i)
+            for (int j = 0; j < dim; ++j)
+              P[q][i][j] = s[Motion::index(i, j)];
+          hoop[q] = s[dim < 3 ? dim : 2];
+          continue;
+        }
+      Number F[dim][dim], C[dim][dim], stretch = Number(1.) + h[q], others = Number(1.); // in the hoop directions
+      Shape::deformation(H[q], F);
+      const Number det = cofactors(F, C);
+      for (int i = 0; i < n_hoop; ++i)
+        others *= stretch;
+      if constexpr (Element::mean_dilatation)
+        s = deviator(s) * Number(mean_J / (det * others)) - spherical(mean_pressure);
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          {
+            Number sum = s[Motion::index(i, 0)] * C[0][j];
+            for (int k = 1; k < dim; ++k)
+              sum += s[Motion::index(i, k)] * C[k][j];
+            P[q][i][j] = sum * others;
+          }
+      if constexpr (n_hoop > 0)
+        hoop[q] = s[dim < 3 ? dim : 2] * det * (n_hoop == 1 ? Number(1.) : stretch);
+    }
+  if constexpr (Element::has_hourglass_control)
+    {
+      Amplitudes Q;
+      for (int k = 0; k < n_amplitudes; ++k)
+        Q[k / Element::n_patterns][k % Element::n_patterns] =
+          load<Number>(&record.amplitude[(std::size_t(batch) * n_amplitudes + k) * W]);
+      operators.forces(P, hoop, Q, f);
+    }
+  else if constexpr (n_points == 1)
+    {
+      const Amplitudes none = {};
+      operators.forces(P, hoop, none, f);
+    }
+  else
+    operators.forces(P, hoop, f);
+  (void)h, (void)mean_pressure, (void)mean_J;
+}
+} // namespace Arenite
