@@ -1,5 +1,5 @@
-// A plane shock runs into a refined region whose edge is oblique to it. Scenes keep their mesh where a law has memory; here the mesh is
-// refined before the start.
+// A plane shock runs into a refined region whose edge is oblique to it. The mesh is refined before the
+// start and stays; adaptive ones have tests/mechanics/point_transfer.cc and scenes.
 
 #include <optional>
 
