@@ -156,11 +156,31 @@ void MeshAdaptor<dim>::flag(Triangulation &triangulation, const std::vector<bool
         else if (quiet[cell->active_cell_index()] && !front[cell->active_cell_index()] && level > base_level)
           cell->set_coarsen_flag();
       }
+  keep_beside_finer(triangulation);
   share_flags(triangulation);
   triangulation.prepare_coarsening_and_refinement();
 }
 
-/// In one dimension every process changes the whole mesh: it needs the flags of all.
+/// Cells that touch finer ones, or will, stay as they are. Otherwise it would be deal.II that keeps them because of the rule of one hanging node
+/// per edge, which it cannot judge where the neighbours' families belong to other processes: the mesh would depend on the partition.
+template <int dim>
+void MeshAdaptor<dim>::keep_beside_finer(Triangulation &triangulation) const
+{
+  share_flags(triangulation);
+  std::vector<int> level(triangulation.n_vertices(), 0); // finest around each vertex
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (!cell->is_artificial())
+      for (const unsigned int v : cell->vertex_indices())
+        level[cell->vertex_index(v)] =
+          std::max(level[cell->vertex_index(v)], cell->level() + (cell->refine_flag_set() ? 1 : 0));
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->coarsen_flag_set())
+      for (const unsigned int v : cell->vertex_indices())
+        if (level[cell->vertex_index(v)] > cell->level())
+          cell->clear_coarsen_flag();
+}
+
+/// Other processes' cells beside own ones get their flags; in one dimension, where every process changes the whole mesh, all do.
 template <int dim>
 void MeshAdaptor<dim>::share_flags(Triangulation &triangulation) const
 {
@@ -182,7 +202,16 @@ void MeshAdaptor<dim>::share_flags(Triangulation &triangulation) const
         }
     }
   else
-    (void)triangulation;
+    GridTools::exchange_cell_data_to_ghosts<int, dealii::Triangulation<dim>>(
+      triangulation, [](const auto &cell) { return cell->refine_flag_set() ? 1 : (cell->coarsen_flag_set() ? -1 : 0); },
+      [](const auto &cell, const int flag) {
+        cell->clear_refine_flag();
+        cell->clear_coarsen_flag();
+        if (flag > 0)
+          cell->set_refine_flag();
+        else if (flag < 0)
+          cell->set_coarsen_flag();
+      });
 }
 
 template <int dim>

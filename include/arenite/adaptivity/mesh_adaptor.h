@@ -60,6 +60,7 @@ private:
   void obey_boxes(const Discretization<dim> &, std::vector<bool> &front, std::vector<bool> &coarse) const;
   void grow(Triangulation &, std::vector<bool> &marked) const;
   void share_flags(Triangulation &) const;
+  void keep_beside_finer(Triangulation &) const;
   void check_size(const Triangulation &, double time) const;
   void flag(Triangulation &, const std::vector<bool> &front, const std::vector<bool> &quiet) const;
 
