@@ -99,6 +99,36 @@ typename CellRecords<dim>::Surroundings CellRecords<dim>::look_around(const std:
   return result;
 }
 
+/// Value k of the polynomial through the points of a cell at a place of it, cut off at the values of the points around the place.
+template <int dim>
+double CellRecords<dim>::polynomial(const double *const record, const double (&place)[dim], const unsigned int k) const
+{
+  double value = 0., lower = std::numeric_limits<double>::max(), upper = -lower;
+  for (unsigned int p = 0; p < n_points; ++p)
+    {
+      const auto of   = index(p);
+      double     N    = 1.;
+      bool       near = true; // one of the points around the place
+      for (int d = 0; d < dim; ++d)
+        {
+          const double x = layout.points[of[d]];
+          for (unsigned int j = 0; j < n_line; ++j)
+            if (j != of[d])
+              N *= (place[d] - layout.points[j]) / (x - layout.points[j]);
+          near = near && (of[d] == 0 || layout.points[of[d] - 1] <= place[d]) &&
+                 (of[d] + 1 == n_line || layout.points[of[d] + 1] >= place[d]);
+        }
+      const double there = record[p * layout.n_values + k];
+      value += N * there;
+      if (near)
+        {
+          lower = std::min(lower, there);
+          upper = std::max(upper, there);
+        }
+    }
+  return std::clamp(value, lower, upper);
+}
+
 template <int dim>
 void CellRecords<dim>::refine(const double *const parent, const Surroundings &around, const unsigned int child,
                               double *const record) const
@@ -124,7 +154,7 @@ void CellRecords<dim>::refine(const double *const parent, const Surroundings &ar
         place[d] = 0.5 * ((child >> d & 1) + layout.points[at[d]]);
       for (unsigned int k = 0; k < n_values; ++k)
         {
-          double value = 0., lower = std::numeric_limits<double>::max(), upper = -lower;
+          double value, lower, upper;
           if (n_line <= 2)
             {
               const unsigned int nearest = n_line == 1 ? 0 : child; // point and child of one corner have one number
@@ -144,28 +174,10 @@ void CellRecords<dim>::refine(const double *const parent, const Surroundings &ar
                 }
             }
           else
-            for (unsigned int p = 0; p < n_points; ++p)
-              {
-                const auto of   = index(p);
-                double     N    = 1.;
-                bool       near = true; // one of the points around this place
-                for (int d = 0; d < dim; ++d)
-                  {
-                    const double x = layout.points[of[d]];
-                    for (unsigned int j = 0; j < n_line; ++j)
-                      if (j != of[d])
-                        N *= (place[d] - layout.points[j]) / (x - layout.points[j]);
-                    near = near && (of[d] == 0 || layout.points[of[d] - 1] <= place[d]) &&
-                           (of[d] + 1 == n_line || layout.points[of[d] + 1] >= place[d]);
-                  }
-                const double there = parent[p * layout.n_values + k];
-                value += N * there;
-                if (near)
-                  {
-                    lower = std::min(lower, there);
-                    upper = std::max(upper, there);
-                  }
-              }
+            {
+              own[k] = polynomial(parent, place, k);
+              continue;
+            }
           own[k] = std::clamp(value, lower, upper);
         }
       own[n_values] = volume(parent, n_line <= 2 ? std::min(child, n_points - 1) : q) / n_children;
@@ -207,6 +219,8 @@ void CellRecords<dim>::coarsen(const std::vector<const double *> &children, doub
   for (unsigned int q = 0; q < n_points; ++q)
     for (unsigned int k = 0; k < n_values; ++k)
       record[q * layout.n_values + k] /= volume(record, q);
+  if (n_line > 2)
+    take_polynomials(children, record);
   double *const of_cell = record + n_points * layout.n_values;
   for (unsigned int i = 0; i < layout.of_cell.size(); ++i)
     {
@@ -217,6 +231,35 @@ void CellRecords<dim>::coarsen(const std::vector<const double *> &children, doub
         }
       of_cell[i] *= layout.of_cell[i].to_parent;
     }
+}
+
+/// Points of the cell from the polynomials of the children they lie in, the mean where they lie between some.
+template <int dim>
+void CellRecords<dim>::take_polynomials(const std::vector<const double *> &children, double *const record) const
+{
+  for (unsigned int q = 0; q < n_points; ++q)
+    for (unsigned int k = 0; k < n_values; ++k)
+      {
+        const auto   at    = index(q);
+        double       sum   = 0.;
+        unsigned int count = 0;
+        for (unsigned int child = 0; child < n_children; ++child)
+          {
+            double place[dim];
+            bool   inside = true;
+            for (int d = 0; d < dim; ++d)
+              {
+                place[d] = 2. * layout.points[at[d]] - (child >> d & 1);
+                inside   = inside && place[d] > -1e-9 && place[d] < 1. + 1e-9;
+                place[d] = std::clamp(place[d], 0., 1.);
+              }
+            if (!inside)
+              continue;
+            sum += polynomial(children[child], place, k);
+            ++count;
+          }
+        record[q * layout.n_values + k] = sum / count;
+      }
 }
 
 template class CellRecords<1>;

@@ -35,14 +35,16 @@ public:
   /// its own linear field; higher ones the polynomial through the points of the parent. Both are cut off at the bounds.
   void refine(const double *parent, const Surroundings &, unsigned int child, double *record) const;
 
-  /// Record of a cell from those of its children: points take the mean, weighted with volumes, over the points of the children in their part
-  /// of the cell.
+  /// Record of a cell from those of its children. Elements of degree 1: points take the mean, weighted with volumes, over the points of the
+  /// children in their part of the cell; higher ones the polynomial of the child there, cut off, so that linear fields survive.
   void coarsen(const std::vector<const double *> &children, double *record) const;
 
   const CellRecord layout;
 
 private:
   std::array<unsigned int, dim> index(unsigned int point) const;
+  double                        polynomial(const double *record, const double (&place)[dim], unsigned int k) const;
+  void                          take_polynomials(const std::vector<const double *> &children, double *record) const;
   double                        volume(const double *record, const unsigned int point) const
   {
     return record[(point + 1) * layout.n_values - 1];
