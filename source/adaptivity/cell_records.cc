@@ -18,12 +18,13 @@ CellRecords<dim>::CellRecords(const CellRecord &layout)
   : layout(layout)
   , n_line(static_cast<unsigned int>(layout.points.size()))
   , n_points(layout.n_points(dim))
-  , n_values(layout.n_values - 1)
+  , n_values(layout.n_values > 0 ? layout.n_values - 1 : 0)
 {
   double end = 0.;
   for (const double weight : layout.weights)
     ends.push_back(end += weight);
-  ends.back() = std::numeric_limits<double>::max();
+  if (!ends.empty())
+    ends.back() = std::numeric_limits<double>::max();
 }
 
 template <int dim>
