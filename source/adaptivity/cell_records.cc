@@ -192,36 +192,10 @@ template <int dim>
 void CellRecords<dim>::coarsen(const std::vector<const double *> &children, double *const record) const
 {
   std::fill_n(record, layout.size(dim), 0.);
-  double total = 0.;
-  for (const double *const child : children)
-    for (unsigned int q = 0; q < n_points; ++q)
-      total += volume(child, q);
-  const double least = 1e-12 * total / (n_children * n_points); // for points on an axis
-  for (unsigned int child = 0; child < n_children; ++child)
-    for (unsigned int q = 0; q < n_points; ++q)
-      {
-        const auto   at = index(q);
-        unsigned int to = 0;
-        for (int d = dim - 1; d >= 0; --d)
-          {
-            const unsigned int half = child >> d & 1;
-            // a point on the edge of a part belongs to the part on the child's side
-            const double place = 0.5 * (half + layout.points[at[d]]) + (half == 0 ? -1e-9 : 1e-9);
-            to =
-              to * n_line + static_cast<unsigned int>(std::upper_bound(ends.begin(), ends.end(), place) - ends.begin());
-          }
-        const double *const from = children[child] + q * layout.n_values;
-        double *const       sum  = record + to * layout.n_values;
-        const double        v    = std::max(from[n_values], least);
-        for (unsigned int k = 0; k < n_values; ++k)
-          sum[k] += v * from[k];
-        sum[n_values] += v;
-      }
-  for (unsigned int q = 0; q < n_points; ++q)
-    for (unsigned int k = 0; k < n_values; ++k)
-      record[q * layout.n_values + k] /= volume(record, q);
   if (n_line > 2)
     take_polynomials(children, record);
+  else
+    take_means(children, record);
   double *const of_cell = record + n_points * layout.n_values;
   for (unsigned int i = 0; i < layout.of_cell.size(); ++i)
     {
@@ -234,10 +208,40 @@ void CellRecords<dim>::coarsen(const std::vector<const double *> &children, doub
     }
 }
 
+/// Points of the cell from the points of the children in their part of it.
+template <int dim>
+void CellRecords<dim>::take_means(const std::vector<const double *> &children, double *const record) const
+{
+  for (unsigned int child = 0; child < n_children; ++child)
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        const auto   at = index(q);
+        unsigned int to = 0;
+        for (int d = dim - 1; d >= 0; --d)
+          {
+            const double place = 0.5 * ((child >> d & 1) + layout.points[at[d]]);
+            to =
+              to * n_line + static_cast<unsigned int>(std::upper_bound(ends.begin(), ends.end(), place) - ends.begin());
+          }
+        const double *const from = children[child] + q * layout.n_values;
+        double *const       sum  = record + to * layout.n_values;
+        const double        v    = from[n_values];
+        for (unsigned int k = 0; k < n_values; ++k)
+          sum[k] += v * from[k];
+        sum[n_values] += v;
+      }
+  for (unsigned int q = 0; q < n_points; ++q)
+    for (unsigned int k = 0; k < n_values; ++k)
+      record[q * layout.n_values + k] /= volume(record, q);
+}
+
 /// Points of the cell from the polynomials of the children they lie in, the mean where they lie between some.
 template <int dim>
 void CellRecords<dim>::take_polynomials(const std::vector<const double *> &children, double *const record) const
 {
+  for (unsigned int q = 0; q < n_points; ++q)
+    for (const double *const child : children) // as halves divide it
+      record[(q + 1) * layout.n_values - 1] += volume(child, q);
   for (unsigned int q = 0; q < n_points; ++q)
     for (unsigned int k = 0; k < n_values; ++k)
       {

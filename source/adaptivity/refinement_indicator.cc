@@ -11,6 +11,26 @@ using namespace dealii;
 
 namespace
 {
+/// max |f - mean f| of a field over the nodes of a cell.
+template <int dim>
+double variation(const Discretization<dim> &discretization, const VectorType &field, const unsigned int cell)
+{
+  const unsigned int         *nodes = discretization.cell_nodes(cell);
+  const unsigned int          n     = discretization.nodes_per_cell();
+  std::vector<Tensor<1, dim>> f(n);
+  Tensor<1, dim>              mean;
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        f[i][c] = field.local_element(dim * nodes[i] + c);
+      mean += f[i] / n;
+    }
+  double largest = 0.;
+  for (const auto &value : f)
+    largest = std::max(largest, (value - mean).norm());
+  return largest;
+}
+
 /// Variation of velocity and of strain times cp inside a cell: both are of the same size in a wave, and the second alone is left
 /// where the solid is at rest under load.
 ///
@@ -24,25 +44,15 @@ public:
   {
     const Discretization<dim>  &discretization = dynamics.discretization;
     const unsigned int          N = discretization.degree() + 1, n = discretization.nodes_per_cell();
-    std::vector<Tensor<1, dim>> v(n), u(n);
+    std::vector<Tensor<1, dim>> u(n);
     std::vector<Point<dim>>     x;
     for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
       {
         const unsigned int *nodes = discretization.cell_nodes(cell);
         discretization.cell_positions(cell, x);
-        Tensor<1, dim> mean_v;
         for (unsigned int i = 0; i < n; ++i)
-          {
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                v[i][c] = velocity.local_element(dim * nodes[i] + c);
-                u[i][c] = state.displacement.local_element(dim * nodes[i] + c);
-              }
-            mean_v += v[i] / n;
-          }
-        double variation = 0.;
-        for (unsigned int i = 0; i < n; ++i)
-          variation = std::max(variation, (v[i] - mean_v).norm());
+          for (unsigned int c = 0; c < dim; ++c)
+            u[i][c] = state.displacement.local_element(dim * nodes[i] + c);
         // differences of neighbouring nodes along each direction, compared with their mean over the cell
         double strain = 0.;
         for (unsigned int d = 0, stride = 1; d < dim; ++d, stride *= N)
@@ -64,7 +74,7 @@ public:
                   }
           }
         const double cp = dynamics.material_of_block(discretization.cells()[cell]->material_id()).p_wave_speed();
-        per_cell[cell]  = static_cast<float>(variation + cp * strain);
+        per_cell[cell]  = static_cast<float>(variation(discretization, velocity, cell) + cp * strain);
       }
   }
 };
@@ -77,24 +87,8 @@ public:
   void evaluate(const Dynamics<dim> &dynamics, const State<dim> &, const VectorType &velocity,
                 Vector<float> &per_cell) const override
   {
-    const Discretization<dim> &discretization = dynamics.discretization;
-    const unsigned int         n              = discretization.nodes_per_cell();
-    for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
-      {
-        const unsigned int         *nodes = discretization.cell_nodes(cell);
-        std::vector<Tensor<1, dim>> v(n);
-        Tensor<1, dim>              mean;
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            for (unsigned int c = 0; c < dim; ++c)
-              v[i][c] = velocity.local_element(dim * nodes[i] + c);
-            mean += v[i] / n;
-          }
-        double variation = 0.;
-        for (const auto &value : v)
-          variation = std::max(variation, (value - mean).norm());
-        per_cell[cell] = static_cast<float>(variation);
-      }
+    for (unsigned int cell = 0; cell < dynamics.discretization.cells().size(); ++cell)
+      per_cell[cell] = static_cast<float>(variation(dynamics.discretization, velocity, cell));
   }
 };
 
@@ -115,8 +109,6 @@ public:
         while (materials.size() <= id)
           materials.push_back(dynamics.material_of_block(static_cast<types::material_id>(materials.size())));
       }
-    if (materials.size() == 1) // one element would stand for all ids
-      materials.push_back(materials.front());
     StoredFields<dim> stored;
     if (dynamics.gives_point_values())
       stored.values = [&](const unsigned int cell, std::vector<double> &values) {

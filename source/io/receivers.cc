@@ -1,10 +1,10 @@
 #include <arenite/base/errors.h>
 #include <arenite/base/names.h>
+#include <arenite/base/stopwatch.h>
 #include <arenite/base/values.h>
 #include <arenite/io/receivers.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace Arenite
@@ -232,12 +232,11 @@ void Receivers<dim>::add_stored(const unsigned int i, const Tensor<1, dim> &u, c
 template <int dim>
 void Receivers<dim>::flush()
 {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch(&seconds);
   process(sums_of_own_points());
   headers.clear();
   buffer.clear();
   file->flush();
-  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// [header][own point][u, stress]

@@ -1,5 +1,6 @@
 #include <arenite/base/errors.h>
 #include <arenite/base/values.h>
+#include <arenite/io/receiver_file.h>
 #include <arenite/materials/law_list.h>
 #include <arenite/materials/strain_path.h>
 #include <arenite/simulation/material_bench.h>
@@ -61,7 +62,7 @@ void MaterialBench::declare_parameters(Parameters &parameters)
 std::size_t MaterialBench::Table::index(const std::string &column) const
 {
   for (std::size_t i = 0; i < columns.size(); ++i)
-    if (columns[i].substr(0, columns[i].find(" [")) == column)
+    if (name_and_unit(columns[i]).first == column)
       return i;
   throw std::logic_error("The bench has no column '" + column + "'.");
 }

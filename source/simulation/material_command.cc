@@ -2,6 +2,7 @@
 #include <arenite/base/values.h>
 #include <arenite/io/files.h>
 #include <arenite/io/log.h>
+#include <arenite/io/receiver_file.h>
 #include <arenite/simulation/commands.h>
 #include <arenite/simulation/material_bench.h>
 
@@ -128,11 +129,8 @@ Summary run_bench(const RunOptions &options, const std::vector<std::string> &ove
   log.line(bench.test.type + ", " + std::to_string(table.rows.size()) + " rows:");
   for (std::size_t i = 0; i < result.columns.size(); ++i)
     {
-      const std::size_t bracket = result.columns[i].find(" [");
-      print(log, result.columns[i].substr(0, bracket), result.values[i],
-            bracket == std::string::npos
-              ? ""
-              : result.columns[i].substr(bracket + 2, result.columns[i].size() - bracket - 3));
+      const auto [name, unit] = name_and_unit(result.columns[i]);
+      print(log, name, result.values[i], unit);
     }
   log.line("  " + stem + ".csv, " + stem + "_used.prm");
   return result;

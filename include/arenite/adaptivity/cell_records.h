@@ -26,7 +26,7 @@ public:
   /// Means over the points of a cell, weighted with their volumes: [value].
   std::vector<double> means(const double *record) const;
 
-  /// @p means_of: of the cell and of its neighbours, in the order of faces; empty where there is none of the same block. @p distance: from
+  /// @p own, @p neighbour: means of the cell and of its neighbours, in the order of faces; empty where there is none of the same block. @p distance: from
   /// the centre of the cell to that of the neighbour in sizes of the cell: 1 for equal ones, 3/2 and 3/4 for larger and smaller ones.
   Surroundings look_around(const std::vector<double> &own, const std::vector<double> (&neighbour)[2 * dim],
                            const double (&distance)[2 * dim]) const;
@@ -44,6 +44,7 @@ public:
 private:
   std::array<unsigned int, dim> index(unsigned int point) const;
   double                        polynomial(const double *record, const double (&place)[dim], unsigned int k) const;
+  void                          take_means(const std::vector<const double *> &children, double *record) const;
   void                          take_polynomials(const std::vector<const double *> &children, double *record) const;
   double                        volume(const double *record, const unsigned int point) const
   {

@@ -405,31 +405,40 @@ private:
     points.largest_frequency = std::max(points.largest_frequency, points.frequency[batch * W + lane]);
   }
 
+  /// What the law sees of a batch: the stored arrays, and those of the kernel.
+  PointBatch batch_of_points(PointData &points, const unsigned int batch, const double dt,
+                             const Number (&strain)[n_points][6], const Number (&density_old)[n_points],
+                             const Number (&density)[n_points], Number (&dissipated)[n_points]) const
+  {
+    const std::size_t first = std::size_t(batch) * n_points;
+    PointBatch        result;
+    result.n_points    = n_points;
+    result.dt          = dt;
+    result.strain      = reinterpret_cast<const double *>(strain);
+    result.density_old = reinterpret_cast<const double *>(density_old);
+    result.density     = reinterpret_cast<const double *>(density);
+    result.stress      = &points.stress[6 * first * W];
+    result.history     = n_history > 0 ? &points.history[n_history * first * W] : nullptr;
+    result.wave_speed  = &points.wave_speed[first * W];
+    result.stored      = &points.stored[first * W];
+    result.dissipated  = reinterpret_cast<double *>(dissipated);
+    return result;
+  }
+
   /// The law takes the points of a batch to admissible states, with their stored energy and wave speed; no time passes. @return what it
   /// dissipated of the cells' energies
   Number settle(const unsigned int batch, const Operators &operators, const Motion (&motion)[n_points],
                 BlockState &record) const
   {
-    PointData        &points = record.points;
-    const std::size_t first  = std::size_t(batch) * n_points;
-    Number            strain[n_points][6], density[n_points], dissipated[n_points];
+    Number strain[n_points][6], density[n_points], dissipated[n_points];
     for (int q = 0; q < n_points; ++q)
       {
         for (int k = 0; k < 6; ++k)
           strain[q][k] = Number(0.);
         density[q] = Number(law->density()) / Arenite::max<Number>(motion[q].J, Number(1e-9));
       }
-    PointBatch law_batch;
-    law_batch.n_points    = n_points;
-    law_batch.dt          = std::numeric_limits<double>::min();
-    law_batch.strain      = reinterpret_cast<const double *>(strain);
-    law_batch.density_old = reinterpret_cast<const double *>(density);
-    law_batch.density     = reinterpret_cast<const double *>(density);
-    law_batch.stress      = &points.stress[6 * first * W];
-    law_batch.history     = n_history > 0 ? &points.history[n_history * first * W] : nullptr;
-    law_batch.wave_speed  = &points.wave_speed[first * W];
-    law_batch.stored      = &points.stored[first * W];
-    law_batch.dissipated  = reinterpret_cast<double *>(dissipated);
+    PointBatch law_batch =
+      batch_of_points(record.points, batch, std::numeric_limits<double>::min(), strain, density, density, dissipated);
     law->after_transfer(law_batch);
     law->update(law_batch);
     Number loss = Number(0.);

@@ -72,18 +72,8 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
         }
     }
 
-  PointBatch law_batch;
-  law_batch.n_points    = n_points;
-  law_batch.dt          = dt;
-  law_batch.strain      = reinterpret_cast<const double *>(strain);
-  law_batch.density_old = reinterpret_cast<const double *>(density_old);
-  law_batch.density     = reinterpret_cast<const double *>(density);
-  law_batch.heat        = reinterpret_cast<const double *>(heat);
-  law_batch.stress      = &points.stress[6 * first * W];
-  law_batch.history     = n_history > 0 ? &points.history[n_history * first * W] : nullptr;
-  law_batch.wave_speed  = &points.wave_speed[first * W];
-  law_batch.stored      = &points.stored[first * W];
-  law_batch.dissipated  = reinterpret_cast<double *>(dissipated);
+  PointBatch law_batch = batch_of_points(points, batch, dt, strain, density_old, density, dissipated);
+  law_batch.heat       = reinterpret_cast<const double *>(heat);
   {
     const Stopwatch watch(points.is_timed ? &points.law_seconds : nullptr);
     law->update(law_batch);
