@@ -66,10 +66,39 @@ IndexSet with_components(const IndexSet &nodes, const unsigned int n_components)
 }
 } // namespace
 
+/// List the owned cells along the curve through the trees of cells, and number owned nodes as these cells meet them. deal.II's own order
+/// depends on how the mesh came about: sums over nodes and cells of a run that begins anew from a checkpoint would differ in round-off.
+template <int dim>
+void Discretization<dim>::number_by_cells()
+{
+  std::vector<std::pair<CellId, CellIterator>> by_id;
+  for (const auto &cell : dofs.active_cell_iterators())
+    if (cell->is_locally_owned())
+      by_id.emplace_back(cell->id(), cell);
+  std::sort(by_id.begin(), by_id.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+  cell_list.clear();
+  for (const auto &entry : by_id)
+    cell_list.push_back(entry.second);
+
+  const IndexSet               &owned = dofs.locally_owned_dofs();
+  const types::global_dof_index none = numbers::invalid_dof_index, first = owned.n_elements() > 0 ? *owned.begin() : 0;
+  std::vector<types::global_dof_index> number(owned.n_elements(), none), indices(nodes_per_cell());
+  types::global_dof_index              next = first;
+  for (const auto &cell : cell_list)
+    {
+      cell->get_dof_indices(indices);
+      for (const auto index : indices)
+        if (index >= first && index - first < number.size() && number[index - first] == none)
+          number[index - first] = next++;
+    }
+  dofs.renumber_dofs(number);
+}
+
 template <int dim>
 void Discretization<dim>::distribute_nodes()
 {
   dofs.distribute_dofs(fe);
+  number_by_cells();
   IndexSet relevant;
   DoFTools::extract_locally_relevant_dofs(dofs, relevant);
   AffineConstraints<double> radial(relevant), constraints(relevant);
@@ -82,15 +111,12 @@ void Discretization<dim>::distribute_nodes()
   const unsigned int                   n = nodes_per_cell();
   std::vector<types::global_dof_index> indices(n), needed;
   std::vector<types::global_dof_index> global_table;
-  cell_list.clear();
-  for (const auto &cell : dofs.active_cell_iterators())
-    if (cell->is_locally_owned())
-      {
-        cell_list.push_back(cell);
-        cell->get_dof_indices(indices);
-        for (unsigned int i = 0; i < n; ++i)
-          global_table.push_back(indices[lexicographic[i]]);
-      }
+  for (const auto &cell : cell_list)
+    {
+      cell->get_dof_indices(indices);
+      for (unsigned int i = 0; i < n; ++i)
+        global_table.push_back(indices[lexicographic[i]]);
+    }
 
   // Ghosts: the nodes of owned cells and the masters of those that hang.
   std::vector<types::global_dof_index> used = global_table;

@@ -89,7 +89,7 @@ public:
   unsigned int degree() const { return fe.degree; }
   unsigned int nodes_per_cell() const { return fe.n_dofs_per_cell(); }
 
-  /// Owned active cells in the order of the triangulation, and their local node numbers in lexicographic order.
+  /// Owned active cells in an order that depends on nothing but the mesh, and their local node numbers in lexicographic order.
   const std::vector<CellIterator> &cells() const { return cell_list; }
   const unsigned int *cell_nodes(const unsigned int cell) const { return &node_table[cell * nodes_per_cell()]; }
 
@@ -124,6 +124,7 @@ public:
   std::shared_ptr<const dealii::Utilities::MPI::Partitioner> node_partitioner, vector_partitioner;
 
 private:
+  void number_by_cells();
   void add_axis_lines(dealii::AffineConstraints<double> &) const;
   void make_hanging_nodes(const std::vector<dealii::types::global_dof_index> &lines,
                           const dealii::AffineConstraints<double>            &constraints,
