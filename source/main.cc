@@ -20,7 +20,7 @@
 
 namespace
 {
-constexpr int internal_error = 1, input_error = 2, physics_alarm = 3, output_error = 4;
+constexpr int internal_error = 1, input_error = 2, physics_alarm = 3, output_error = 4, checkpoint_error = 5;
 
 /// True in the process that speaks, before MPI_Init has told us: launchers announce the rank in the environment.
 bool is_first_process()
@@ -113,6 +113,10 @@ int execute(const std::function<int(const Arenite::RunOptions &)> &command, cons
     {
       return error_exit.collective(error.what(), output_error);
     }
+  catch (const Arenite::CheckpointError &error)
+    {
+      return error_exit.collective(error.what(), checkpoint_error);
+    }
   catch (const std::bad_alloc &)
     {
       return error_exit.single("Out of memory. Use a coarser mesh or more processes.", internal_error);
@@ -136,7 +140,8 @@ int main(int argc, char **argv)
   // The command line is read before MPI_Init, which costs 0.3 s: help and mistakes answer at once.
   CLI::App app(
     "Explicit dynamics of soils and solids under shock loading.\n"
-    "Exit codes: 0 done; 1 internal error; 2 bad command, parameters or mesh; 3 physics alarm; 4 output failed.",
+    "Exit codes: 0 done; 1 internal error; 2 bad command, parameters or mesh; 3 physics alarm; 4 output failed;\n"
+    "5 no usable checkpoint; 75 stopped on request, with a checkpoint.",
     "arenite");
   app.set_version_flag("--version", "arenite " + Arenite::version() + " (" + Arenite::commit() + "), deal.II " +
                                       Arenite::dealii_version() + ", " + Arenite::compiler());
@@ -161,7 +166,10 @@ int main(int argc, char **argv)
     subcommand->add_flag("--overwrite", options.overwrite, "Replace the results that the directory holds");
   };
 
-  add_output(add_command("run", "Run a scene", Arenite::run, true));
+  CLI::App *run = add_command("run", "Run a scene", Arenite::run, true);
+  add_output(run);
+  run->add_flag("--resume", options.resume, "Go on from the newest checkpoint in the directory of the results")
+    ->excludes("--overwrite");
   add_command("check", "Read a scene and print what a run would cost, without running it", Arenite::check, true);
   add_command("parameters", "Print the parameters of a scene with their values; without a scene, all that exist",
               Arenite::print_parameters, false)

@@ -3,6 +3,7 @@
 #include <arenite/adaptivity/momentum_transfer.h>
 #include <arenite/adaptivity/point_transfer.h>
 #include <arenite/base/errors.h>
+#include <arenite/base/state_archive.h>
 
 #include <deal.II/distributed/cell_data_transfer.templates.h>
 #include <deal.II/grid/grid_tools.h>
@@ -434,6 +435,16 @@ void MeshAdaptor<dim>::schedule(const Dynamics<dim> &dynamics)
                                                     dynamics.material_of_block(cell->material_id()).p_wave_speed());
   crossing_at_rest = Utilities::MPI::min(crossing_at_rest, dynamics.discretization.communicator);
   crossed          = 0.;
+}
+
+template <int dim>
+void MeshAdaptor<dim>::exchange(StateArchive &archive)
+{
+  for (Indicator &indicator : indicators)
+    archive.common(indicator.peak);
+  archive.common(crossed);
+  archive.common(crossing_at_rest);
+  archive.common(n_met);
 }
 
 template class MeshAdaptor<1>;

@@ -492,6 +492,15 @@ void Parameters::refuse(const std::string &path, const std::string &reason) cons
 
 // ---- printing ----
 
+std::map<std::string, std::string> Parameters::values() const
+{
+  std::map<std::string, std::string> result;
+  for (const Entry &entry : entries)
+    if (!entry.only_if_set || is_set(entry.path))
+      result[entry.path] = entry.value;
+  return result;
+}
+
 std::string Parameters::echo() const
 {
   std::string result;

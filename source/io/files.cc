@@ -1,12 +1,17 @@
 #include <arenite/base/errors.h>
+#include <arenite/base/state_archive.h>
 #include <arenite/io/files.h>
+
+#include <boost/crc.hpp>
 
 #include <cerrno>
 #include <cstring>
 #include <exception>
+#include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
+#include <unistd.h>
+#include <vector>
 
 namespace Arenite
 {
@@ -50,6 +55,67 @@ std::string replace_file(const std::string &name, const std::function<void(std::
   std::error_code error;
   std::filesystem::rename(fresh, name, error);
   return error ? name + ": cannot be written: " + error.message() + "." : "";
+}
+
+void exchange_length(StateArchive &archive, const std::string &name, std::ofstream &file)
+{
+  std::uint64_t length = 0;
+  std::string   problem;
+  const bool    is_writer = dealii::Utilities::MPI::this_mpi_process(archive.communicator) == 0;
+  if (is_writer && !archive.loads())
+    {
+      errno = 0;
+      std::error_code error;
+      if (file << std::flush)
+        length = std::filesystem::file_size(name, error); // a stream that appends does not know
+      if (error || !file)
+        problem = write_problem(name);
+    }
+  archive.common(length);
+  if (is_writer && archive.loads())
+    {
+      std::error_code error;
+      const auto      present = std::filesystem::file_size(name, error);
+      if (error || present < length)
+        problem = name + ": is shorter than it was when the checkpoint was written; results are missing.";
+      else
+        {
+          std::filesystem::resize_file(name, length, error);
+          if (error || !file)
+            problem = write_problem(name);
+        }
+    }
+  agree_on_output(problem, archive.communicator);
+}
+
+std::string synchronise(const std::string &name)
+{
+  errno                     = 0;
+  const int         file    = open(name.c_str(), O_RDONLY);
+  const bool        is_done = file >= 0 && fsync(file) == 0;
+  const std::string problem = is_done ? "" : write_problem(name);
+  if (file >= 0)
+    close(file);
+  return problem;
+}
+
+std::string sum_up(const std::string &name, FileSum &sum)
+{
+  errno = 0;
+  std::ifstream      file(name, std::ios::binary);
+  std::vector<char>  piece(1 << 20);
+  boost::crc_32_type crc;
+  sum.size = 0;
+  while (file)
+    {
+      file.read(piece.data(), piece.size());
+      crc.process_bytes(piece.data(), file.gcount());
+      sum.size += file.gcount();
+    }
+  sum.crc = crc.checksum();
+  if (file.eof())
+    return "";
+  return name + ": cannot be read" + (errno != 0 ? std::string(": ") + std::strerror(errno) : std::string()) + ".";
 }
 
 void agree_on_output(const std::string &problem, const MPI_Comm communicator)

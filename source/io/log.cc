@@ -13,13 +13,13 @@ Log::Log(const MPI_Comm communicator, const bool silent)
   , active(!silent && dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
 {}
 
-void Log::open(const OutputDirectory &directory)
+void Log::open(const OutputDirectory &directory, const bool append)
 {
   if (!active)
     return;
   name  = directory.file("log.txt");
   errno = 0;
-  file.open(name);
+  file.open(name, append ? std::ios::app : std::ios::out);
   if (!(file << early << std::flush))
     problem = write_problem(name);
   early.clear();

@@ -1,3 +1,4 @@
+#include <arenite/base/state_archive.h>
 #include <arenite/io/files.h>
 #include <arenite/io/receiver_file.h>
 
@@ -33,7 +34,8 @@ class ReceiverTable : public ReceiverFile<dim>
 {
 public:
   ReceiverTable(const std::string &file_name, const std::vector<std::string> &names,
-                const ReceiverQuantities &quantities, const Symmetry symmetry, const MPI_Comm communicator)
+                const ReceiverQuantities &quantities, const Symmetry symmetry, const MPI_Comm communicator,
+                const FileStart start)
     : ReceiverFile<dim>(points_of_root(names.size(), communicator))
     , file_name(file_name)
     , quantities(quantities)
@@ -42,8 +44,10 @@ public:
     if (is_root(communicator))
       {
         errno = 0;
-        file.open(file_name, std::ios::binary);
+        file.open(file_name, std::ios::binary | (start == FileStart::resumed ? std::ios::app : std::ios::out));
       }
+    if (start == FileStart::resumed)
+      return;
     text = "t [s]";
     for (const std::string &name : names)
       {
@@ -99,6 +103,8 @@ public:
     agree_on_output(problem, communicator);
   }
 
+  void exchange(StateArchive &archive) override { exchange_length(archive, file_name, file); }
+
 private:
   const std::string        file_name;
   const ReceiverQuantities quantities;
@@ -121,9 +127,9 @@ template <int dim>
 std::unique_ptr<ReceiverFile<dim>> make_receiver_table(const std::string              &file_name,
                                                        const std::vector<std::string> &names,
                                                        const ReceiverQuantities &quantities, const Symmetry symmetry,
-                                                       const MPI_Comm communicator)
+                                                       const MPI_Comm communicator, const FileStart start)
 {
-  return std::make_unique<ReceiverTable<dim>>(file_name, names, quantities, symmetry, communicator);
+  return std::make_unique<ReceiverTable<dim>>(file_name, names, quantities, symmetry, communicator, start);
 }
 
 std::pair<std::string, std::string> name_and_unit(const std::string &text)
@@ -154,11 +160,11 @@ std::string table_number(const double value)
   return text;
 }
 
-#define ARENITE_INSTANTIATE(dim)                                                                             \
-  template std::unique_ptr<ReceiverFile<dim>> make_receiver_table<dim>(const std::string &,                  \
-                                                                       const std::vector<std::string> &,     \
-                                                                       const ReceiverQuantities &, Symmetry, \
-                                                                       MPI_Comm);
+#define ARENITE_INSTANTIATE(dim)                                                                                       \
+  template std::unique_ptr<ReceiverFile<dim>> make_receiver_table<dim>(const std::string &,                            \
+                                                                       const std::vector<std::string> &,               \
+                                                                       const ReceiverQuantities &, Symmetry, MPI_Comm, \
+                                                                       FileStart);
 ARENITE_INSTANTIATE(1)
 ARENITE_INSTANTIATE(2)
 ARENITE_INSTANTIATE(3)

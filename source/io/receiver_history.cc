@@ -1,3 +1,4 @@
+#include <arenite/base/state_archive.h>
 #include <arenite/io/receiver_history.h>
 
 #include <deal.II/base/mpi.h>
@@ -9,6 +10,22 @@
 namespace Arenite
 {
 using namespace dealii;
+
+template <int dim>
+void VelocityHistory<dim>::exchange(StateArchive &archive, const std::size_t first, const std::size_t n_own)
+{
+  for (bool *flag : {&chained, &pending, &has_acceleration})
+    archive.common(*flag);
+  archive.common(step);
+  archive.common(pending_step);
+  for (double *value : {&dt_before, &pending_dt, &pending_row.time})
+    archive.common(*value);
+  for (Vectors *vectors :
+       {&last, &before, &pending_before, &acceleration, &pending_row.displacement, &pending_row.velocity})
+    archive.of_points(*vectors, first, n_own);
+  archive.of_points(pending_row.stress, first, n_own);
+  archive.of_points(pending_row.scalars, first, n_own);
+}
 
 template <int dim>
 void ReceiverErrors<dim>::reinit(const ExactSolution<dim> &solution, const std::vector<Point<dim>> &points_,
@@ -48,6 +65,16 @@ void ReceiverErrors<dim>::add(const ReceiverRow<dim> &row)
       }
   last_time = row.time;
   started   = true;
+}
+
+template <int dim>
+void ReceiverErrors<dim>::exchange(StateArchive &archive, const std::size_t first)
+{
+  for (Quantity &quantity : quantities)
+    for (std::vector<Square> *squares : {&quantity.last, &quantity.integral})
+      archive.of_points(*squares, first, points.size());
+  archive.common(last_time);
+  archive.common(started);
 }
 
 namespace
@@ -133,6 +160,24 @@ std::map<std::string, double> ReceiverNorms<dim>::of_set(const MPI_Comm communic
   return result;
 }
 
+template <int dim>
+void ReceiverNorms<dim>::exchange(StateArchive &archive)
+{
+  for (Norm *norm : {&displacement, &velocity, &stress})
+    {
+      archive.sum(norm->integral);
+      archive.sum(norm->last);
+      norm->peak = Utilities::MPI::max(norm->peak, archive.communicator);
+      archive.common(norm->peak);
+    }
+  archive.common(first_time);
+  archive.common(last_time);
+  archive.common(started);
+}
+
+template class VelocityHistory<1>;
+template class VelocityHistory<2>;
+template class VelocityHistory<3>;
 template class ReceiverErrors<1>;
 template class ReceiverErrors<2>;
 template class ReceiverErrors<3>;

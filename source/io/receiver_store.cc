@@ -1,3 +1,4 @@
+#include <arenite/base/state_archive.h>
 #include <arenite/io/files.h>
 #include <arenite/io/receiver_store.h>
 
@@ -178,7 +179,49 @@ void ReceiverStore::create()
         unlink(file_name.c_str());
     }
   agree_on_output(problem, communicator);
+  open_together();
+}
 
+void ReceiverStore::open()
+{
+  std::string problem;
+  if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    problem = objection();
+  problem = Utilities::MPI::broadcast(communicator, problem, 0);
+  if (!problem.empty())
+    throw InputError(problem);
+  open_together();
+}
+
+/// What does not let a resumed run go on with the file, or nothing.
+std::string ReceiverStore::objection() const
+{
+  const QuietHdf5 quiet;
+  try
+    {
+      const Handle old(H5Fopen(file_name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+      for (const StoredDataset &planned : datasets)
+        {
+          const Handle dataset(H5Dopen2(old, (planned.group + "/" + planned.name).c_str(), H5P_DEFAULT), H5Dclose);
+          const Handle space(H5Dget_space(dataset), H5Sclose);
+          std::vector<hsize_t> size(planned.size.size());
+          if (H5Sget_simple_extent_ndims(space) != int(size.size()) ||
+              H5Sget_simple_extent_dims(space, size.data(), nullptr) < 0 || size != planned.size)
+            return file_name +
+                   ": has room for another number of rows than this run needs. With lines or planes of receivers "
+                   "a resumed run keeps its 'End time'.";
+        }
+    }
+  catch (const Hdf5Failure &)
+    {
+      return file_name + ": is not the file of the run that is to be resumed.";
+    }
+  return "";
+}
+
+void ReceiverStore::open_together()
+{
+  std::string problem;
   errno = 0;
   if (access(file_name.c_str(), R_OK | W_OK) != 0) // a directory that not all computers share
     problem = write_problem(file_name);
@@ -293,6 +336,17 @@ public:
   }
 
   void flush() override { agree_on_output(write(), store->communicator); }
+
+  /// Times beyond are not reached, whatever an interrupted run has written there.
+  void exchange(StateArchive &archive) override
+  {
+    archive.common(n_written);
+    std::string problem;
+    if (archive.loads() && rank == 0 && n_written < n_rows)
+      problem = store->write(set, "time", {n_written}, {n_rows - n_written},
+                             std::vector<double>(n_rows - n_written, std::numeric_limits<double>::quiet_NaN()));
+    agree_on_output(problem, store->communicator);
+  }
 
 private:
   static constexpr unsigned int n_stress = n_stress_components(dim);

@@ -1,5 +1,6 @@
 #include <arenite/base/errors.h>
 #include <arenite/base/names.h>
+#include <arenite/base/state_archive.h>
 #include <arenite/base/stopwatch.h>
 #include <arenite/base/values.h>
 #include <arenite/io/receivers.h>
@@ -88,7 +89,7 @@ void Receivers<dim>::reinit(const Discretization<dim> &new_discretization, const
 
 template <int dim>
 void Receivers<dim>::open(const std::string &directory_, const double start_time, const double end_time_,
-                          const ExactSolution<dim> *exact, std::shared_ptr<ReceiverStore> &store)
+                          const ExactSolution<dim> *exact, std::shared_ptr<ReceiverStore> &store, const FileStart start)
 {
   const MPI_Comm communicator = discretization->communicator;
   directory                   = directory_;
@@ -99,7 +100,8 @@ void Receivers<dim>::open(const std::string &directory_, const double start_time
   const std::string stem = directory + "/receivers-" + name;
   if (points.in_table())
     {
-      file = make_receiver_table<dim>(stem + ".csv", points.names, quantities, discretization->symmetry, communicator);
+      file = make_receiver_table<dim>(stem + ".csv", points.names, quantities, discretization->symmetry, communicator,
+                                      start);
       std::string text = "name";
       for (unsigned int d = 0; d < dim; ++d)
         text += std::string(",") + direction_letters(discretization->symmetry)[d];
@@ -302,6 +304,23 @@ void Receivers<dim>::process(const std::vector<double> &sums)
 }
 
 template <int dim>
+void Receivers<dim>::exchange(StateArchive &archive)
+{
+  if (!archive.loads())
+    flush();
+  archive.common(next_output);
+  archive.common(last_step);
+  archive.common(chained);
+  archive.common(row_is_open);
+  const unsigned int first_point = file->first_points[Utilities::MPI::this_mpi_process(discretization->communicator)];
+  history.exchange(archive, first_point, n_own_points);
+  if (with_errors)
+    error_integrals.exchange(archive, first_point);
+  signal_norms.exchange(archive);
+  file->exchange(archive);
+}
+
+template <int dim>
 void Receivers<dim>::finish()
 {
   flush();
@@ -372,12 +391,21 @@ void ReceiverSets<dim>::reinit(const Discretization<dim> &discretization, const 
 
 template <int dim>
 void ReceiverSets<dim>::open(const std::string &directory, const double start_time, const double end_time,
-                             const ExactSolution<dim> *exact)
+                             const ExactSolution<dim> *exact, const FileStart start)
 {
   for (auto &set : sets)
-    set->open(directory, start_time, end_time, exact, store);
-  if (store)
+    set->open(directory, start_time, end_time, exact, store, start);
+  if (store && start == FileStart::fresh)
     store->create();
+  else if (store)
+    store->open();
+}
+
+template <int dim>
+void ReceiverSets<dim>::exchange(StateArchive &archive)
+{
+  for (auto &set : sets)
+    set->exchange(archive);
 }
 
 template <int dim>

@@ -101,13 +101,17 @@ void RunRecord::print_summary(Log &log, const OutputDirectory &directory) const
   if (dealii::Utilities::MPI::this_mpi_process(directory.communicator) != 0)
     return;
   std::string names;
-  std::size_t pictures = 0;
+  std::size_t pictures = 0, checkpoints = 0;
   for (const std::string &name : results_in(directory.path()))
     if (name.rfind("solution/", 0) == 0)
       pictures += name.size() > 5 && name.compare(name.size() - 5, 5, ".pvtu") == 0;
+    else if (name.rfind("checkpoint", 0) == 0)
+      checkpoints += name.find("/manifest.json") != std::string::npos;
     else
       names += (names.empty() ? "" : ", ") + name;
-  log.line("Files in " + directory.path() + ": " + names +
-           (pictures > 0 ? " (" + std::to_string(pictures) + (pictures == 1 ? " picture)" : " pictures)") : ""));
+  log.line(
+    "Files in " + directory.path() + ": " + names +
+    (pictures > 0 ? " (" + std::to_string(pictures) + (pictures == 1 ? " picture)" : " pictures)") : "") +
+    (checkpoints > 0 ? ", " + std::to_string(checkpoints) + (checkpoints == 1 ? " checkpoint" : " checkpoints") : ""));
 }
 } // namespace Arenite

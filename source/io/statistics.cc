@@ -1,3 +1,4 @@
+#include <arenite/base/state_archive.h>
 #include <arenite/base/values.h>
 #include <arenite/io/files.h>
 #include <arenite/io/statistics.h>
@@ -51,7 +52,7 @@ void Statistics::declare_parameters(Parameters &parameters)
 void Statistics::finalize(const Parameters &) {}
 
 void Statistics::open(const OutputDirectory &directory, Log &new_log, const double new_start, const double new_end,
-                      const double new_symmetry_factor, const std::string &per_extent)
+                      const double new_symmetry_factor, const std::string &per_extent, const FileStart file_start)
 {
   unit            = " [J" + per_extent + "]";
   log             = &new_log;
@@ -65,11 +66,22 @@ void Statistics::open(const OutputDirectory &directory, Log &new_log, const doub
     {
       name  = directory.file("statistics.csv");
       errno = 0;
-      file.open(name);
+      file.open(name, file_start == FileStart::resumed ? std::ios::app : std::ios::out);
       if (!file)
         problem = write_problem(name);
     }
   agree_on_output(problem, communicator);
+}
+
+void Statistics::exchange(StateArchive &archive)
+{
+  exchange_length(archive, name, file);
+  archive.common(last_info.step);
+  archive.common(last_info.n_dofs);
+  archive.common(largest_scale);
+  archive.common(work);
+  archive.common(n_rows);
+  printed_work = work;
 }
 
 void Statistics::write_header(const EnergyReport &report)

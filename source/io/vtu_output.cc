@@ -1,3 +1,4 @@
+#include <arenite/base/state_archive.h>
 #include <arenite/io/files.h>
 #include <arenite/io/receiver_file.h>
 #include <arenite/io/vtu_output.h>
@@ -293,6 +294,21 @@ void VTUOutput<dim>::write(const OutputDirectory &directory, const Discretizatio
 
   if (enabled())
     next_time = interval * (std::floor(time / interval + 0.5) + 1.);
+}
+
+template <int dim>
+void VTUOutput<dim>::exchange(StateArchive &archive)
+{
+  archive.common(next_time);
+  std::size_t n = pictures.size();
+  archive.common(n);
+  pictures.resize(n);
+  for (Picture &picture : pictures)
+    {
+      archive.common(picture.time);
+      archive.common(picture.record);
+      archive.common(picture.pieces);
+    }
 }
 
 template class VTUOutput<1>;

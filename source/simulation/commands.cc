@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 namespace Arenite
@@ -18,19 +19,49 @@ using namespace dealii;
 
 namespace
 {
-/// One complete run of a scene.
+/// The checkpoint that a run shall go on from; InputError if the scene moves otherwise than that of the checkpoint.
+FoundCheckpoint find_checkpoint(const OutputDirectory &directory, const std::map<std::string, std::string> &parameters,
+                                Log &log)
+{
+  FoundCheckpoint checkpoint(directory);
+  for (const std::string &reason : checkpoint.rejected)
+    log.line("Warning    " + reason);
+  const std::vector<std::string> changes = differences(checkpoint.manifest.parameters, parameters);
+  if (!changes.empty())
+    {
+      constexpr std::size_t most    = 6;
+      std::string           message = directory.path() + "/" + checkpoint.name + " belongs to another scene:";
+      for (std::size_t i = 0; i < std::min(changes.size(), most); ++i)
+        message += "\n  " + changes[i];
+      if (changes.size() > most)
+        message += "\n  and " + std::to_string(changes.size() - most) + " more";
+      throw InputError(message + "\nOnly 'Title', 'End time' and 'Output' may change when a run is resumed.");
+    }
+  std::ostringstream text;
+  text << "Resumed    " << checkpoint.name << ": t = " << checkpoint.manifest.time << " s, written by "
+       << checkpoint.manifest.ranks << (checkpoint.manifest.ranks == 1 ? " process" : " processes");
+  log.line(text.str());
+  return checkpoint;
+}
+
+/// One run of a scene, or the rest of one; nothing if it was asked to stop before its end.
 template <int dim>
-RunRecord run_scene(Parameters &parameters, const RunOptions &options, const std::vector<std::string> &overrides,
-                    const OutputDirectory &directory, Log &log)
+std::optional<RunRecord> run_scene(Parameters &parameters, const RunOptions &options,
+                                   const std::vector<std::string> &overrides, const OutputDirectory &directory,
+                                   Log &log)
 {
   const MPI_Comm  communicator = MPI_COMM_WORLD;
   Scene<dim>      scene(parameters);
   Simulation<dim> simulation(scene, log, communicator);
+  simulation.parameters = parameters.values();
   if (!scene.title.empty())
     log.line(scene.title);
-  simulation.set_up();
+  std::optional<FoundCheckpoint> checkpoint;
+  if (options.resume)
+    checkpoint = find_checkpoint(directory, simulation.parameters, log);
+  simulation.set_up(checkpoint ? &*checkpoint : nullptr);
   directory.create();
-  log.open(directory);
+  log.open(directory, options.resume);
   if (Utilities::MPI::this_mpi_process(communicator) == 0)
     agree_on_output(create_file(directory.file("parameters_used.prm"),
                                 [&](std::ostream &file) { file << parameters.echo(); }),
@@ -42,7 +73,12 @@ RunRecord run_scene(Parameters &parameters, const RunOptions &options, const std
   record.title      = scene.title;
   record.scenes     = options.scenes;
   record.overrides  = overrides;
-  simulation.run(directory);
+  if (!simulation.run(directory))
+    {
+      log << "Stopped    by " << scene.checkpoints.reason() << "; 'arenite run --resume' goes on from the checkpoint\n";
+      log.finish();
+      return {};
+    }
   record.measure_memory(communicator);
   record.write(directory);
   record.print_summary(log, directory);
@@ -50,10 +86,12 @@ RunRecord run_scene(Parameters &parameters, const RunOptions &options, const std
   return record;
 }
 
-RunRecord run_scene(const RunOptions &options, const std::vector<std::string> &overrides, const std::string &output,
-                    Log &log)
+std::optional<RunRecord> run_scene(const RunOptions &options, const std::vector<std::string> &overrides,
+                                   const std::string &output, Log &log)
 {
-  const OutputDirectory directory(output, options.scenes.front(), options.overwrite, MPI_COMM_WORLD);
+  using Mode                 = OutputDirectory::Mode;
+  const Mode            mode = options.resume ? Mode::resume : (options.overwrite ? Mode::overwrite : Mode::refuse);
+  const OutputDirectory directory(output, options.scenes.front(), mode, MPI_COMM_WORLD);
   Parameters            parameters = Parameters::from_files(options.scenes, overrides);
   return with_dimension(parameters, [&](const auto dim) {
     return run_scene<decltype(dim)::value>(parameters, options, overrides, directory, log);
@@ -116,8 +154,7 @@ unsigned int first_refinement(const Parameters &parameters)
 int run(const RunOptions &options)
 {
   Log log(MPI_COMM_WORLD);
-  run_scene(options, options.overrides, options.output, log);
-  return 0;
+  return run_scene(options, options.overrides, options.output, log) ? 0 : stopped_on_request;
 }
 
 int check(const RunOptions &options)
@@ -161,15 +198,18 @@ int converge(const RunOptions &options)
   Log                    log(MPI_COMM_WORLD);
   const Parameters       parameters = Parameters::from_files(options.scenes, options.overrides);
   const unsigned int     first      = first_refinement(parameters);
-  const OutputDirectory  base(options.output, options.scenes.front(), true, MPI_COMM_WORLD);
+  const OutputDirectory  base(options.output, options.scenes.front(), OutputDirectory::Mode::overwrite, MPI_COMM_WORLD);
   std::vector<RunRecord> records;
   for (unsigned int level = 0; level < options.levels; ++level)
     {
       std::vector<std::string> overrides = options.overrides;
       overrides.push_back("Mesh/Refinement=" + std::to_string(first + level));
       log << "\n--- refinement " << first + level << '\n';
-      records.push_back(
-        run_scene(options, overrides, base.path() + "/refinement-" + std::to_string(first + level), log));
+      const auto record =
+        run_scene(options, overrides, base.path() + "/refinement-" + std::to_string(first + level), log);
+      if (!record)
+        return stopped_on_request;
+      records.push_back(*record);
     }
   log << "\nConvergence of " << options.scenes.front() << ", refinements " << first << " to "
       << first + options.levels - 1 << '\n'

@@ -93,6 +93,7 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
       "Measure and print where the time goes: laws, other work in the cells, loads, the step, exchange "
       "between processes. Costs some percent of it.");
   }
+  checkpoints.declare_parameters(parameters);
   solution_choice.declare_parameters(parameters);
 }
 

@@ -30,16 +30,14 @@ double Simulation<dim>::core_seconds(const Clock::time_point since) const
   return std::chrono::duration<double>(Clock::now() - since).count() * Utilities::MPI::n_mpi_processes(communicator);
 }
 
+/// The mesh of the start.
 template <int dim>
-void Simulation<dim>::set_up()
+void Simulation<dim>::make_mesh()
 {
-  const auto start = Clock::now();
-  scene.mesh.geometry->create(triangulation);
   const double cells = triangulation.n_global_active_cells() * std::pow(2., dim * scene.mesh.refinement);
   if (cells * std::pow(scene.element.degree, dim) * dim > 4.2e9)
     throw InputError("[Mesh] Refinement = " + std::to_string(scene.mesh.refinement) +
                      " gives more than 4.2e9 unknowns, the limit of 32-bit numbering. Use a coarser mesh.");
-  check_blocks();
   triangulation.refine_global(scene.mesh.refinement);
 
   std::vector<types::boundary_id> loaded;
@@ -47,6 +45,28 @@ void Simulation<dim>::set_up()
     for (const auto id : load->loaded_boundaries())
       loaded.push_back(id);
   scene.adaptor.initial_refinement(triangulation, discretization, loaded);
+}
+
+template <int dim>
+void Simulation<dim>::start_from_rest()
+{
+  scene.time_step.calibrate(*dynamics);
+  scene.adaptor.schedule(*dynamics);
+  set_initial_state();
+  scene.time_step.limit_first(std::max(fastest_node(), scene.constraints.largest_speed(0.)));
+  initial_mass = dynamics->total_mass();
+}
+
+template <int dim>
+void Simulation<dim>::set_up(const FoundCheckpoint *const checkpoint)
+{
+  const auto start = Clock::now();
+  scene.mesh.geometry->create(triangulation);
+  check_blocks();
+  if (checkpoint)
+    load_mesh(*checkpoint);
+  else
+    make_mesh();
 
   std::vector<std::unique_ptr<InternalForce<dim>>> blocks;
   for (Block &block : scene.blocks)
@@ -55,12 +75,11 @@ void Simulation<dim>::set_up()
                                              scene.constraints, material_of_block());
   if (scene.timed)
     dynamics->cost.emplace();
-  dynamics->reinit(state);
-  scene.time_step.calibrate(*dynamics);
-  scene.adaptor.schedule(*dynamics);
-  set_initial_state();
-  scene.time_step.limit_first(std::max(fastest_node(), scene.constraints.largest_speed(0.)));
-  initial_mass              = dynamics->total_mass();
+  dynamics->reinit(state, checkpoint == nullptr);
+  if (checkpoint)
+    load_state(*checkpoint);
+  else
+    start_from_rest();
   record.setup_core_seconds = core_seconds(start);
   describe();
 }
@@ -250,24 +269,36 @@ void Simulation<dim>::describe_cost()
 }
 
 template <int dim>
-void Simulation<dim>::run(const OutputDirectory &directory)
+bool Simulation<dim>::run(const OutputDirectory &directory)
 {
+  const FileStart files = archive ? FileStart::resumed : FileStart::fresh;
   reinit_receivers();
-  scene.receivers.open(directory.path(), 0., scene.end_time, scene.exact_solution.get());
-  scene.statistics.open(directory, log, 0., scene.end_time, scene.mesh.geometry->symmetry_factor(),
-                        per_extent(scene.symmetry));
-  if (dynamics->stores_points()) // what the points store at rest, or in a state that they are set into
+  scene.receivers.open(directory.path(), 0., scene.end_time, scene.exact_solution.get(), files);
+  scene.statistics.open(directory, log, state.time, scene.end_time, scene.mesh.geometry->symmetry_factor(),
+                        per_extent(scene.symmetry), files);
+  if (archive)
     {
-      dynamics->compute_force(state);
-      watch(dynamics->point_limits(state));
-      state.force = 0.;
+      exchange_output(*archive);
+      archive.reset();
     }
-  dynamics->balance.set_initial(dynamics->total_energy(state, 0.));
+  else
+    {
+      if (dynamics->stores_points()) // what the points store at rest, or in a state that they are set into
+        {
+          dynamics->compute_force(state);
+          watch(dynamics->point_limits(state));
+          state.force = 0.;
+        }
+      dynamics->balance.set_initial(dynamics->total_energy(state, 0.));
+    }
+  scene.checkpoints.start(directory, state.step);
 
   const auto start = Clock::now();
+  begin            = start;
+  bool is_complete;
   try
     {
-      march(directory);
+      is_complete = march(directory);
     }
   catch (const PhysicsAlarm &alarm) // keep what was recorded on the way there
     {
@@ -277,12 +308,14 @@ void Simulation<dim>::run(const OutputDirectory &directory)
       throw;
     }
   output_seconds += scene.receivers.output_seconds() * Utilities::MPI::n_mpi_processes(communicator);
-  record.core_seconds        = core_seconds(start) - output_seconds;
+  record.core_seconds        = earlier_seconds + core_seconds(start) - output_seconds;
   record.output_core_seconds = output_seconds;
   scene.receivers.finish(); // writes, and evaluates the exact solution: not part of the computation
   record.errors = scene.receivers.errors();
   record.values = scene.receivers.norms();
   scene.statistics.finish();
+  if (!is_complete)
+    return false;
 
   record.dimension       = dim;
   record.symmetry        = name(scene.symmetry);
@@ -312,6 +345,7 @@ void Simulation<dim>::run(const OutputDirectory &directory)
     log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
         << 100. * adaptation_seconds / record.core_seconds << " % of the run); the front met "
         << scene.adaptor.coarse_cells_met() << " cells before they were refined\n";
+  return true;
 }
 
 /// What the points dissipated, for run.json and the log.
@@ -357,12 +391,19 @@ void Simulation<dim>::record_parts()
   record.parts["receivers, ledgers and the rest"] = rest;
 }
 
+/// @return false if asked to stop before the end time
 template <int dim>
-void Simulation<dim>::march(const OutputDirectory &directory)
+bool Simulation<dim>::march(const OutputDirectory &directory)
 {
   const bool follows_points = dynamics->stores_points();
   while (true)
     {
+      if (const Wish wish = scene.checkpoints.ask(state.step); wish != Wish::nothing)
+        {
+          write_checkpoint(directory);
+          if (wish == Wish::stop)
+            return false;
+        }
       double     crossing = std::numeric_limits<double>::infinity();
       const bool last     = state.time >= scene.end_time * (1. - 1e-12);
       dynamics->compute_force(state);
@@ -382,7 +423,7 @@ void Simulation<dim>::march(const OutputDirectory &directory)
         dt = scene.time_step.next(state.time, scene.end_time, state.dt_last);
       observe(directory, dt, last);
       if (last)
-        return;
+        return true;
       step_power = dynamics->advance(state, dt);
       record.dof_steps += dim * double(discretization.n_nodes());
     }

@@ -1,3 +1,4 @@
+#include <arenite/base/state_archive.h>
 #include <arenite/time/energy_balance.h>
 
 #include <algorithm>
@@ -52,6 +53,17 @@ EnergyReport EnergyBalance::report(const double time, const double kinetic, cons
   largest_imbalance = std::max(largest_imbalance, std::abs(report.imbalance()));
   largest_scale     = std::max(largest_scale, report.scale());
   return report;
+}
+
+void EnergyBalance::exchange(StateArchive &archive)
+{
+  for (double &account : accounts)
+    archive.sum(account);
+  archive.sum(step_changes);
+  archive.common(adaptation);
+  archive.common(initial);
+  archive.common(largest_imbalance);
+  archive.common(largest_scale);
 }
 
 double EnergyBalance::largest_error() const { return largest_scale > 0. ? largest_imbalance / largest_scale : 0.; }

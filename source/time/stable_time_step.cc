@@ -1,4 +1,5 @@
 #include <arenite/base/errors.h>
+#include <arenite/base/state_archive.h>
 #include <arenite/time/stable_time_step.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -217,6 +218,16 @@ void StableTimeStep<dim>::update(Dynamics<dim> &dynamics)
     }
   if (!(critical_step > 0. && std::isfinite(critical_step)))
     throw InputError("[Mesh]: no step is stable on this mesh; some node has no mass, or some cell no volume.");
+}
+
+template <int dim>
+void StableTimeStep<dim>::exchange(StateArchive &archive)
+{
+  for (double *value : {&first_by_motion, &largest_inverse_size, &step_of_points, &elastic_step, &critical_step,
+                        &element_step, &rate_ratio})
+    archive.common(*value);
+  archive.common(follows_points);
+  archive.common(place);
 }
 
 template <int dim>

@@ -199,10 +199,12 @@ BOOST_AUTO_TEST_CASE(von_mises_of_uniaxial_stress)
 
 BOOST_AUTO_TEST_CASE(directory_has_the_name_of_the_scene)
 {
-  BOOST_TEST(OutputDirectory("", "prm/blast.prm", true, MPI_COMM_SELF).path() == "output/blast");
-  BOOST_TEST(OutputDirectory("", "a.b.prm", true, MPI_COMM_SELF).path() == "output/a.b");
-  BOOST_TEST(OutputDirectory("", "blast.txt", true, MPI_COMM_SELF).path() == "output/blast.txt");
-  BOOST_TEST(OutputDirectory("there/", "blast.prm", true, MPI_COMM_SELF).path() == "there");
+  BOOST_TEST(OutputDirectory("", "prm/blast.prm", OutputDirectory::Mode::overwrite, MPI_COMM_SELF).path() ==
+             "output/blast");
+  BOOST_TEST(OutputDirectory("", "a.b.prm", OutputDirectory::Mode::overwrite, MPI_COMM_SELF).path() == "output/a.b");
+  BOOST_TEST(OutputDirectory("", "blast.txt", OutputDirectory::Mode::overwrite, MPI_COMM_SELF).path() ==
+             "output/blast.txt");
+  BOOST_TEST(OutputDirectory("there/", "blast.prm", OutputDirectory::Mode::overwrite, MPI_COMM_SELF).path() == "there");
 }
 
 BOOST_AUTO_TEST_CASE(old_results_are_guarded, *utf::label("parallel"))
@@ -217,14 +219,16 @@ BOOST_AUTO_TEST_CASE(old_results_are_guarded, *utf::label("parallel"))
         fs::create_directories(scratch.path + "/solution");
         make_file(scratch.path + "/" + result, "old");
       });
-      BOOST_CHECK_EXCEPTION(OutputDirectory(scratch.path, "", false, world), InputError, [&](const InputError &error) {
-        const std::string what = error.what();
-        return what.find(result) != std::string::npos && what.find("--overwrite") != std::string::npos &&
-               what.find('\n') == std::string::npos;
-      });
+      BOOST_CHECK_EXCEPTION(OutputDirectory(scratch.path, "", OutputDirectory::Mode::refuse, world), InputError,
+                            [&](const InputError &error) {
+                              const std::string what = error.what();
+                              return what.find(result) != std::string::npos &&
+                                     what.find("--overwrite") != std::string::npos &&
+                                     what.find('\n') == std::string::npos;
+                            });
       BOOST_TEST(content(scratch.path + "/" + result) == "old");
       MPI_Barrier(world);
-      const OutputDirectory directory(scratch.path, "", true, world);
+      const OutputDirectory directory(scratch.path, "", OutputDirectory::Mode::overwrite, world);
       BOOST_TEST(content(scratch.path + "/" + result) == "old"); // nothing is touched before create()
       MPI_Barrier(world);
       directory.create();
@@ -250,12 +254,12 @@ BOOST_AUTO_TEST_CASE(foreign_files_stay, *utf::label("parallel"))
       make_file(scratch.path + "/" + name, "mine");
     make_file(scratch.path + "/statistics.csv", "old");
   });
-  OutputDirectory(scratch.path, "", true, world).create();
+  OutputDirectory(scratch.path, "", OutputDirectory::Mode::overwrite, world).create();
   for (const std::string &name : foreign)
     BOOST_TEST(content(scratch.path + "/" + name) == "mine");
   BOOST_TEST(!fs::exists(scratch.path + "/statistics.csv"));
   // without results it is nobody's output directory: no flag is needed
-  OutputDirectory(scratch.path, "", false, world).create();
+  OutputDirectory(scratch.path, "", OutputDirectory::Mode::refuse, world).create();
   MPI_Barrier(world);
 }
 
@@ -263,13 +267,13 @@ BOOST_AUTO_TEST_CASE(impossible_directories, *utf::label("parallel"))
 {
   const Scratch scratch;
   on_first([&]() { make_file(scratch.path + "/file", "mine"); });
-  BOOST_CHECK_THROW(OutputDirectory(scratch.path + "/file", "", true, world), InputError);
-  const OutputDirectory below_a_file(scratch.path + "/file/deep", "", false, world);
+  BOOST_CHECK_THROW(OutputDirectory(scratch.path + "/file", "", OutputDirectory::Mode::overwrite, world), InputError);
+  const OutputDirectory below_a_file(scratch.path + "/file/deep", "", OutputDirectory::Mode::refuse, world);
   BOOST_CHECK_EXCEPTION(below_a_file.create(), OutputError, [&](const OutputError &error) {
     return std::string(error.what()).find(scratch.path) != std::string::npos;
   });
   BOOST_TEST(content(scratch.path + "/file") == "mine");
-  const OutputDirectory deep(scratch.path + "/a/b c/d", "", false, world);
+  const OutputDirectory deep(scratch.path + "/a/b c/d", "", OutputDirectory::Mode::refuse, world);
   deep.create();
   BOOST_TEST(fs::is_directory(deep.path()));
   BOOST_TEST(fs::is_empty(deep.path())); // the probe is gone
@@ -279,7 +283,7 @@ BOOST_AUTO_TEST_CASE(impossible_directories, *utf::label("parallel"))
 BOOST_AUTO_TEST_CASE(log_speaks_once, *utf::label("parallel"))
 {
   const Scratch         scratch;
-  const OutputDirectory directory(scratch.path, "", false, world);
+  const OutputDirectory directory(scratch.path, "", OutputDirectory::Mode::refuse, world);
   std::string           screen;
   {
     Quiet quiet;
@@ -308,7 +312,7 @@ BOOST_AUTO_TEST_CASE(one_log_for_several_runs, *utf::label("parallel"))
     Log   log(world);
     for (const std::string run : {"first", "second"})
       {
-        const OutputDirectory directory(scratch.path + "/" + run, "", false, world);
+        const OutputDirectory directory(scratch.path + "/" + run, "", OutputDirectory::Mode::refuse, world);
         directory.create();
         log.line("Title of the " + run);
         log.open(directory);
@@ -324,7 +328,7 @@ BOOST_AUTO_TEST_CASE(one_log_for_several_runs, *utf::label("parallel"))
 BOOST_AUTO_TEST_CASE(statistics_are_those_of_the_full_body, *utf::label("parallel"))
 {
   const Scratch         scratch;
-  const OutputDirectory directory(scratch.path, "", false, world);
+  const OutputDirectory directory(scratch.path, "", OutputDirectory::Mode::refuse, world);
   std::string           screen;
   double                dof_steps = 0.;
   {
@@ -374,7 +378,7 @@ BOOST_AUTO_TEST_CASE(statistics_are_those_of_the_full_body, *utf::label("paralle
 BOOST_AUTO_TEST_CASE(run_record_round_trip, *utf::label("parallel"))
 {
   const Scratch         scratch;
-  const OutputDirectory directory(scratch.path, "", false, world);
+  const OutputDirectory directory(scratch.path, "", OutputDirectory::Mode::refuse, world);
   RunRecord             record;
   record.title        = "Cavity \"elastic\" \xe9"; // Latin-1: not valid in JSON
   record.scenes       = {"prm/cavity.prm"};
@@ -416,7 +420,7 @@ BOOST_AUTO_TEST_CASE(run_record_round_trip, *utf::label("parallel"))
 BOOST_AUTO_TEST_CASE(pictures_are_complete, *utf::label("parallel"))
 {
   const Scratch         scratch;
-  const OutputDirectory directory(scratch.path, "", false, world);
+  const OutputDirectory directory(scratch.path, "", OutputDirectory::Mode::refuse, world);
   const Mesh            mesh(true, 2);
   const VectorType      u = mesh.linear_field(some_gradient());
   Vector<float>         indicator(mesh.triangulation.n_active_cells());
@@ -479,7 +483,7 @@ BOOST_AUTO_TEST_CASE(pictures_are_complete, *utf::label("parallel"))
 BOOST_AUTO_TEST_CASE(processes_without_cells_can_write, *utf::label("parallel"))
 {
   const Scratch         scratch;
-  const OutputDirectory directory(scratch.path, "", false, world);
+  const OutputDirectory directory(scratch.path, "", OutputDirectory::Mode::refuse, world);
   Distributed           triangulation(world);
   GridGenerator::hyper_cube(triangulation);
   Discretization<3> discretization(triangulation, 1);
@@ -501,7 +505,7 @@ BOOST_AUTO_TEST_CASE(full_disk, *utf::label("parallel"))
     return what.find("No space left") != std::string::npos && what.find('\n') == std::string::npos;
   };
   const Scratch         scratch;
-  const OutputDirectory directory(scratch.path, "", false, world);
+  const OutputDirectory directory(scratch.path, "", OutputDirectory::Mode::refuse, world);
   const auto            fill = [&](const std::string &name) {
     on_first([&]() { fs::create_symlink("/dev/full", directory.file(name)); });
   };

@@ -21,7 +21,7 @@ RunRecord run_scene_in(Parameters &parameters)
   try
     {
       simulation.set_up();
-      const OutputDirectory directory(path, "test.prm", true, MPI_COMM_WORLD);
+      const OutputDirectory directory(path, "test.prm", OutputDirectory::Mode::overwrite, MPI_COMM_WORLD);
       directory.create();
       simulation.run(directory);
     }

@@ -11,6 +11,7 @@ Comment lines of the scene say what must hold:
     # EXIT: 0                                        exit code
     # COMMAND: material                              instead of run; the result is result.csv in the output directory
     # COMMAND: check                                 instead of run; there is no output but the screen
+    # RESTART: 120 1e-12                             see tests/restart/run.py
 
 CHECK and SAME know: run (the contents of run.json), errors (run["errors"]), log (log.txt as text), column("file.csv",
 "name"), rows("file.csv"), out (the output directory), screen (the standard output) and the functions of math. All measured
@@ -81,7 +82,7 @@ def difference(a, b):
 def main(arenite, scene):
     arenite, scene = Path(arenite).resolve(), Path(scene).resolve()
     wanted = directives(scene)
-    unknown = set(wanted) - {"RANKS", "CHECK", "SAME", "ARGS", "EXIT", "COMMAND", "LABEL", "TIMEOUT"}
+    unknown = set(wanted) - {"RANKS", "CHECK", "SAME", "ARGS", "EXIT", "COMMAND", "LABEL", "TIMEOUT", "RESTART"}
     if unknown:
         return [f"unknown comment lines: {', '.join(sorted(unknown))}"]
     if not {"CHECK", "SAME"} & set(wanted):

@@ -10,6 +10,8 @@
 
 namespace Arenite
 {
+class StateArchive;
+
 /// Decides when and where the mesh changes, and carries the fields over.
 ///
 /// Cells one of whose indicators exceeds a part of its global maximum (at least 2 % of the largest so far) are the front. They and `Buffer layers` of cells around them are
@@ -55,6 +57,9 @@ public:
   void schedule(const Dynamics<dim> &);
 
   unsigned int max_passes() const { return levels; }
+
+  /// What is known of the front.
+  void exchange(StateArchive &);
 
 private:
   void obey_boxes(const Discretization<dim> &, std::vector<bool> &front, std::vector<bool> &coarse) const;

@@ -24,4 +24,11 @@ class OutputError : public std::runtime_error
 public:
   using std::runtime_error::runtime_error;
 };
+
+/// No checkpoint, or none that can be used. Names the folder and the reason; exit code 5.
+class CheckpointError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
 } // namespace Arenite

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -129,6 +130,9 @@ public:
 
   /// All declared entries with their values and sentences, as a .prm that repeats the run.
   std::string echo() const;
+
+  /// Path and value of all declared entries that have one.
+  std::map<std::string, std::string> values() const;
 
   /// All declared entries as Markdown tables (entry, default, unit, admissible, meaning), one per section.
   std::string manual() const;

@@ -21,8 +21,9 @@ class Log
 public:
   explicit Log(MPI_Comm, bool silent = false);
 
-  /// Start log.txt in a directory that has been created. Collective only in that everybody calls it.
-  void open(const OutputDirectory &);
+  /// Start log.txt in a directory that has been created, or go on with that of an interrupted run. Collective only in that everybody
+  /// calls it.
+  void open(const OutputDirectory &, bool append = false);
 
   /// A line for log.txt alone: what the user reads on the error stream.
   void to_file(const std::string &text);

@@ -18,17 +18,26 @@ namespace Arenite
 class OutputDirectory
 {
 public:
+  /// What becomes of results that are there already.
+  enum class Mode
+  {
+    refuse,
+    overwrite,
+    resume ///< a run goes on with them
+  };
+
   /// @p requested, or "output/<name of @p scene without .prm>" when it is empty. InputError if old results are there and
   /// must not be overwritten. Collective; process 0 looks.
-  OutputDirectory(const std::string &requested, const std::string &scene, bool overwrite, MPI_Comm);
+  OutputDirectory(const std::string &requested, const std::string &scene, Mode, MPI_Comm);
 
-  /// Remove old results, create the directory and try to write into it; OutputError if that fails. Collective.
+  /// Remove old results unless the run goes on with them, create the directory and try to write into it; OutputError if that fails. Collective.
   void create() const;
 
   const std::string &path() const { return directory; }
   /// Path of a file in the directory.
   std::string file(const std::string &name) const { return directory + "/" + name; }
 
+  const Mode     mode;
   const MPI_Comm communicator;
 
 private:
@@ -37,4 +46,7 @@ private:
 
 /// Files in @p directory that Arenite has written, as paths relative to it, sorted.
 std::vector<std::string> results_in(const std::string &directory);
+
+/// Remove a checkpoint, but nothing that Arenite has not written.
+void remove_checkpoint(const std::string &folder);
 } // namespace Arenite

@@ -2,6 +2,7 @@
 
 #include <arenite/base/errors.h>
 #include <arenite/base/symmetry.h>
+#include <arenite/io/files.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/point.h>
@@ -14,6 +15,8 @@
 
 namespace Arenite
 {
+class StateArchive;
+
 /// What a set of receivers writes; the displacement is always measured, because the velocity follows from it.
 struct ReceiverQuantities
 {
@@ -47,6 +50,9 @@ public:
   /// Collective; raises OutputError on all processes if something could not be written.
   virtual void flush() = 0;
 
+  /// How far the file is; after a resumed run has opened it, what was written beyond is cut off or will be written again. Collective.
+  virtual void exchange(StateArchive &) = 0;
+
   /// Process i adds the points first_points[i] <= point < first_points[i + 1].
   const std::vector<unsigned int> first_points;
 };
@@ -60,7 +66,7 @@ template <int dim>
 std::unique_ptr<ReceiverFile<dim>> make_receiver_table(const std::string              &file_name,
                                                        const std::vector<std::string> &names,
                                                        const ReceiverQuantities &quantities, Symmetry symmetry,
-                                                       MPI_Comm communicator);
+                                                       MPI_Comm communicator, FileStart);
 
 /// Write a small text file from process 0; raises OutputError on all processes.
 void write_text_file(const std::string &file_name, const std::string &text, MPI_Comm);

@@ -7,6 +7,8 @@
 
 namespace Arenite
 {
+class StateArchive;
+
 /// Completes rows with the velocity at t_n, from the displacements of the steps around it:
 ///
 ///   v_{n+1/2} = (u_{n+1} - u_n) / dt_n,   v_n = v_{n-1/2} + dt_{n-1}/(dt_{n-1} + dt_n) (v_{n+1/2} - v_{n-1/2}),
@@ -32,6 +34,9 @@ public:
   template <typename Emit>
   void finish(const Emit &emit);
 
+  /// @p n_own points from @p first on are here.
+  void exchange(StateArchive &, std::size_t first, std::size_t n_own);
+
 private:
   template <typename Emit>
   void complete(const Vectors &after, double dt_after, const Emit &emit);
@@ -53,6 +58,8 @@ public:
   /// @p points are the places where the exact solution is wanted: those that the user asked for.
   void reinit(const ExactSolution<dim> &, const std::vector<dealii::Point<dim>> &points, const ReceiverQuantities &);
   void add(const ReceiverRow<dim> &);
+
+  void exchange(StateArchive &, std::size_t first);
 
   /// E_t of each recorded quantity for one point.
   std::map<std::string, double> of_point(unsigned int point) const;
@@ -89,6 +96,8 @@ public:
 
   /// "displacement.rms" ... over the points of all processes; quantities that are not recorded are left out. Collective.
   std::map<std::string, double> of_set(MPI_Comm) const;
+
+  void exchange(StateArchive &);
 
 private:
   struct Norm

@@ -44,6 +44,9 @@ public:
   /// everything that was planned; then no file is left. Collective.
   void create();
 
+  /// Open the file that an interrupted run has left. InputError if it has other sizes than planned. Collective.
+  void open();
+
   /// Write a block of a dataset, on this process alone. Returns a problem for agree_on_output().
   std::string write(const std::string &group, const std::string &name, const std::vector<hsize_t> &offset,
                     const std::vector<hsize_t> &count, const std::vector<double> &values);
@@ -56,6 +59,8 @@ public:
 
 private:
   std::string create_alone() const;
+  std::string objection() const;
+  void        open_together();
 
   std::vector<StoredDataset> datasets;
   hid_t                      file = -1;

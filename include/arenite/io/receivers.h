@@ -38,11 +38,15 @@ public:
   /// Create the files in @p directory; after the first reinit(). @p exact may be null. Collective. Lines and planes share the
   /// store, whose file is created when all of them are known.
   void open(const std::string &directory, double start_time, double end_time, const ExactSolution<dim> *exact,
-            std::shared_ptr<ReceiverStore> &store);
+            std::shared_ptr<ReceiverStore> &store, FileStart);
 
   /// At every t_n after the forces were computed (displacement with valid ghosts, half_velocity = v_{n-1/2}), also at the end
   /// time; once more at the same t_n after a change of the mesh if the forces are computed again. Collective when it flushes.
   void record(const State<dim> &);
+
+  /// Write what the buffer holds, then everything that a resumed run needs to go on as if nothing had happened. Between two calls of
+  /// record(), or after open() before the first. Collective.
+  void exchange(StateArchive &);
 
   /// Complete the last row, write everything that is left and close the file; also before the program ends with an alarm.
   /// Collective.
@@ -129,7 +133,10 @@ public:
   void declare_parameters(Parameters &);
   void finalize(const Parameters &);
   void reinit(const Discretization<dim> &, const MaterialOfBlock &, const StoredPointValues<dim> & = {});
-  void open(const std::string &directory, double start_time, double end_time, const ExactSolution<dim> *exact);
+  /// @p start: whether files are created, or there already; exchange() must follow then.
+  void open(const std::string &directory, double start_time, double end_time, const ExactSolution<dim> *exact,
+            FileStart start = FileStart::fresh);
+  void exchange(StateArchive &);
   void record(const State<dim> &);
   void finish();
 

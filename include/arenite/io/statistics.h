@@ -1,6 +1,7 @@
 #pragma once
 
 #include <arenite/base/parameters.h>
+#include <arenite/io/files.h>
 #include <arenite/io/log.h>
 #include <arenite/io/output_directory.h>
 #include <arenite/time/energy_balance.h>
@@ -14,6 +15,8 @@
 
 namespace Arenite
 {
+class StateArchive;
+
 /// What a step had to do, for the row of the statistics and for the throughput.
 struct StepInfo
 {
@@ -36,9 +39,11 @@ public:
   void declare_parameters(Parameters &);
   void finalize(const Parameters &);
 
-  /// Start the file. @p start is the time [s] at which the steps begin, @p end where they shall end. Collective.
+  /// Start the file, or go on with that of an interrupted run: exchange() must follow then. @p start is the time [s] at which the steps begin, @p end where they shall end. Collective.
   void open(const OutputDirectory &, Log &, double start, double end, double symmetry_factor,
-            const std::string &per_extent = "");
+            const std::string &per_extent = "", FileStart = FileStart::fresh);
+
+  void exchange(StateArchive &);
 
   /// True for every row_interval-th step, counted from step 0.
   bool is_due(const unsigned int step) const { return step % row_interval == 0; }

@@ -14,6 +14,8 @@
 
 namespace Arenite
 {
+class StateArchive;
+
 /// Pictures of the state for ParaView and VisIt: solution/step-NNNNNN.RANK.vtu with their .pvtu, listed with their times in
 /// solution.pvd (ParaView) and solution.visit (VisIt). The lists name only pictures that are complete.
 ///
@@ -47,6 +49,9 @@ public:
              const VectorType &displacement, const VectorType &velocity, const std::vector<LinearElastic> &materials,
              double time, unsigned int step, const std::map<std::string, dealii::Vector<float>> &cell_fields = {},
              const StoredFields<dim> &stored = {});
+
+  /// Which pictures there are, and when the next is due.
+  void exchange(StateArchive &);
 
   /// Pictures of a run that ends at @p end_time, if its step is shorter than the interval.
   unsigned int expected_pictures(double end_time) const;

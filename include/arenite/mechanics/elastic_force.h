@@ -130,6 +130,26 @@ public:
     record.amplitude.resize(viscous ? batches.size() * n_amplitudes * W : 0, 0.);
   }
 
+  /// Viscous hourglass forces of the cell; new cells begin without.
+  CellRecord cell_record() const override
+  {
+    CellRecord record;
+    record.of_cell.resize(viscous ? n_amplitudes : 0, {0., false, 0.});
+    return record;
+  }
+
+  void pack(const BlockState &record, const unsigned int cell, double *values) const override
+  {
+    for (int k = 0; viscous && k < n_amplitudes; ++k)
+      values[k] = record.amplitude[amplitude(cell, k)];
+  }
+
+  void unpack(BlockState &record, const unsigned int cell, const double *values) const override
+  {
+    for (int k = 0; viscous && k < n_amplitudes; ++k)
+      record.amplitude[amplitude(cell, k)] = values[k];
+  }
+
   bool gives_point_values() const override { return Element::mean_dilatation; }
 
   std::vector<std::string> names_of_point_values() const override
@@ -157,6 +177,13 @@ public:
 private:
   static constexpr int n_patterns = Element::n_patterns, n_amplitudes = n_patterns * dim; ///< per cell
   using Amplitudes = Number[dim][n_patterns];
+
+  /// Where number @p k of a cell lies among the amplitudes.
+  std::size_t amplitude(const unsigned int cell, const int k) const
+  {
+    const unsigned int place = batches.place(cell);
+    return (std::size_t(place / W) * n_amplitudes + k) * W + place % W;
+  }
 
   const unsigned int *entries(const unsigned int batch) const { return &batches.entries[batch * n_nodes * W]; }
 

@@ -9,6 +9,8 @@
 
 namespace Arenite
 {
+class StateArchive;
+
 /// What the points of a block with a law of its own remember, structure of arrays in the order of the block's kernel with the lane as
 /// last index. Empty for linear elasticity at small strain. A state without them, on which forces are only tried out, makes the block
 /// answer with its elastic stiffness at rest.
@@ -35,6 +37,8 @@ struct PointData
   double dissipated    = 0.; ///< by the law
   double viscous_work  = 0.; ///< of the bulk viscosity
   double volume_change = 0.; ///< see BlockEnergy
+
+  void exchange(StateArchive &); ///< what does not belong to cells
 
   // of the last step, over the points of this process
   double       stable_step       = std::numeric_limits<double>::infinity(); ///< [s]

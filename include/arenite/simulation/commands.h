@@ -10,11 +10,14 @@ struct RunOptions
 {
   std::vector<std::string> scenes, overrides;
   std::string              output;
-  bool                     overwrite = false, markdown = false;
+  bool                     overwrite = false, resume = false, markdown = false;
   unsigned int             levels = 3;
   std::string              strain_path, sweep; ///< of `material`
   unsigned int             steps_per_row = 0;  ///< of `material`; 0: what the file says
 };
+
+/// Exit code of a run that was asked to stop and has written a checkpoint.
+constexpr int stopped_on_request = 75;
 
 // The commands of the binary; each returns the exit code.
 int run(const RunOptions &);

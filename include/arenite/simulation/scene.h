@@ -12,6 +12,7 @@
 #include <arenite/mechanics/internal_force.h>
 #include <arenite/mechanics/point_motion.h>
 #include <arenite/mesh/geometry.h>
+#include <arenite/simulation/checkpoint_schedule.h>
 #include <arenite/simulation/initial_energy.h>
 #include <arenite/simulation/initial_velocity.h>
 #include <arenite/time/stable_time_step.h>
@@ -61,6 +62,7 @@ struct Scene
   VTUOutput<dim>                            pictures;
   Statistics                                statistics;
   bool                                      timed = false; ///< print what the parts of a step cost
+  CheckpointSchedule                        checkpoints;
   SolutionChoice<dim>                       solution_choice;
   std::shared_ptr<const ExactSolution<dim>> exact_solution;
 

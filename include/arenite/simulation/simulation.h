@@ -1,5 +1,8 @@
 #pragma once
 
+#include <arenite/adaptivity/saved_cells.h>
+#include <arenite/base/state_archive.h>
+#include <arenite/io/checkpoint_folder.h>
 #include <arenite/io/log.h>
 #include <arenite/io/output_directory.h>
 #include <arenite/io/run_record.h>
@@ -7,6 +10,7 @@
 #include <arenite/time/dynamics.h>
 
 #include <chrono>
+#include <optional>
 
 namespace Arenite
 {
@@ -17,11 +21,15 @@ class Simulation
 public:
   Simulation(Scene<dim> &, Log &, MPI_Comm);
 
-  /// Mesh, unknowns, stable step and initial state, with their lines in the log.
-  void set_up();
+  /// Mesh, unknowns, stable step and initial state, with their lines in the log. With a checkpoint the mesh and the state are those of the
+  /// interrupted run, which run() goes on with.
+  void set_up(const FoundCheckpoint * = nullptr);
 
   /// From 0 to the end time; writes into @p directory. Fills record(). PhysicsAlarm when the state leaves physics.
-  void run(const OutputDirectory &directory);
+  /// @return false if it was asked to stop before; there is a checkpoint then
+  bool run(const OutputDirectory &directory);
+
+  std::map<std::string, std::string> parameters; ///< of the scene by path, for checkpoints
 
   std::uint64_t unknowns() const { return std::uint64_t(dim) * discretization.n_nodes(); }
   double        expected_steps() const; ///< on the present mesh
@@ -36,9 +44,16 @@ private:
   using Clock = std::chrono::steady_clock;
 
   void                                check_blocks() const;
+  void                                make_mesh();
+  void                                start_from_rest();
+  void                                load_mesh(const FoundCheckpoint &);
+  void                                load_state(const FoundCheckpoint &);
+  void                                write_checkpoint(const OutputDirectory &);
+  void                                exchange_state(StateArchive &);
+  void                                exchange_output(StateArchive &);
   void                                set_initial_state();
   std::unique_ptr<InternalForce<dim>> make_block(Block &) const;
-  void                                march(const OutputDirectory &);
+  bool                                march(const OutputDirectory &);
   void                                describe() const;
   void                                reinit_receivers();
   bool                                adapt(double dt);
@@ -65,5 +80,9 @@ private:
   double                         step_power = 0., known_energy = 0.;
   unsigned int                   n_adaptations  = 0;
   bool                           warned_of_step = false;
+  Clock::time_point              begin;   ///< of the time loop
+  double earlier_seconds = 0.;            ///< core-seconds of the runs that this one goes on with, without their set-up
+  std::optional<SavedCells<dim>> saved;   ///< while it is loaded
+  std::unique_ptr<StateArchive>  archive; ///< as well
 };
 } // namespace Arenite

@@ -9,6 +9,8 @@
 
 namespace Arenite
 {
+class StateArchive;
+
 /// Where energy came from and went to, up to t_n [J], summed over processes.
 struct EnergyReport
 {
@@ -48,6 +50,8 @@ public:
   /// Reduce over processes; the largest relative imbalance so far is kept. Collective.
   EnergyReport report(double time, double kinetic, const BlockEnergy &, MPI_Comm);
   double       largest_error() const;
+
+  void exchange(StateArchive &);
 
 private:
   std::vector<std::string> names;

@@ -7,6 +7,8 @@
 
 namespace Arenite
 {
+class StateArchive;
+
 /// Courant limit dt < 2/omega_max of the central difference, omega_max^2 the largest eigenvalue of M^-1 K.
 ///
 /// Viscous hourglass forces -C v_{n-1/2} act with lag and shorten the step: it is stable as long as dt^2/4 K + dt/2 C <= M, hence up to
@@ -54,6 +56,9 @@ public:
 
   /// The step of most of the run, as far as the present state knows it.
   double usual() const;
+
+  /// Everything but the ratios, which belong to cells. A mesh from a checkpoint needs no calibration.
+  void exchange(StateArchive &);
 
   /// Centre of the cell that limits the step.
   dealii::Point<dim> limiting_place() const { return place; }
