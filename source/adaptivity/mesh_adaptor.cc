@@ -1,12 +1,13 @@
 #include <arenite/adaptivity/field_transfer.h>
 #include <arenite/adaptivity/mesh_adaptor.h>
+#include <arenite/adaptivity/mesh_flags.h>
 #include <arenite/adaptivity/momentum_transfer.h>
 #include <arenite/adaptivity/point_transfer.h>
 #include <arenite/base/errors.h>
 #include <arenite/base/state_archive.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/distributed/cell_data_transfer.templates.h>
-#include <deal.II/grid/grid_tools.h>
 #include <deal.II/numerics/adaptation_strategies.h>
 #include <deal.II/numerics/cell_data_transfer.templates.h>
 
@@ -44,10 +45,13 @@ void MeshAdaptor<dim>::declare_parameters(Parameters &parameters)
   parameters.add_quantity(
     "Coarsen below", coarsen_below, "-", {0., 1., false, false},
     "Part of the largest indicator below which cells are coarsened. Larger values coarsen sooner.");
-  parameters.add_integer("Buffer layers", layers, 1, 100,
-                         "Layers of fine cells around the front. More layers cost cells and save adaptations.");
-  parameters.add_points("Refined boxes", fine_boxes, "m",
-                        "Boxes of the undeformed body that stay at the finest level, two opposite corners each.");
+  parameters.add_integer(
+    "Buffer layers", layers, 1, 100,
+    "Layers of fine cells around the front, and width of the belts of each coarser level. More layers cost cells "
+    "and save adaptations, each of which costs as much as some hundred steps.");
+  parameters.add_points(
+    "Refined boxes", fine_boxes, "m",
+    "Boxes of the undeformed body whose cells stay at the finest level, two opposite corners each.");
   parameters.add_points("Coarse boxes", coarse_boxes, "m",
                         "Boxes that stay as the initial mesh is, whatever happens in them, two opposite corners each.");
   parameters.add_list("Initially refined boundaries", boundary_names,
@@ -74,43 +78,26 @@ void MeshAdaptor<dim>::finalize(const Parameters &parameters, const MeshChoice<d
                       "must be smaller than 'Refine above', or cells would flip at every adaptation");
 }
 
-/// Add all cells that share a vertex with a marked one, on owned cells.
-template <int dim>
-void MeshAdaptor<dim>::grow(Triangulation &triangulation, std::vector<bool> &marked) const
+namespace
 {
-  for (unsigned int layer = 0; layer < layers; ++layer)
+/// Whether the box from @p low to @p high meets one of those that are given by two opposite corners each.
+template <int dim>
+bool in_some_box(const std::vector<Point<dim>> &corners, const Point<dim> &low, const Point<dim> &high)
+{
+  for (std::size_t box = 0; box < corners.size(); box += 2)
     {
-      using Cell = typename dealii::Triangulation<dim>::active_cell_iterator;
-      std::vector<bool> vertex(triangulation.n_vertices(), false);
-      const auto        mark_vertices = [&](const Cell &cell) {
-        for (const unsigned int v : cell->vertex_indices())
-          vertex[cell->vertex_index(v)] = true;
-      };
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned() && marked[cell->active_cell_index()])
-          mark_vertices(cell);
-      if constexpr (dim == 1)
-        {
-          std::vector<int> marks(vertex.begin(), vertex.end());
-          Utilities::MPI::max(marks, triangulation.get_communicator(), marks);
-          vertex.assign(marks.begin(), marks.end());
-        }
-      else
-        GridTools::exchange_cell_data_to_ghosts<unsigned int, dealii::Triangulation<dim>>(
-          triangulation, [&](const Cell &cell) { return marked[cell->active_cell_index()] ? 1u : 0u; },
-          [&](const Cell &cell, const unsigned int value) {
-            if (value)
-              mark_vertices(cell);
-          });
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const unsigned int v : cell->vertex_indices())
-            if (vertex[cell->vertex_index(v)])
-              marked[cell->active_cell_index()] = true;
+      bool meets = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        meets = meets && high[d] >= std::min(corners[box][d], corners[box + 1][d]) &&
+                low[d] <= std::max(corners[box][d], corners[box + 1][d]);
+      if (meets)
+        return true;
     }
+  return false;
 }
+} // namespace
 
-/// Cells that boxes of the scene keep fine or coarse, by their centres.
+/// Cells that boxes of the scene keep fine, those that a box meets, or coarse, those that have their centre in it.
 template <int dim>
 void MeshAdaptor<dim>::obey_boxes(const Discretization<dim> &discretization, std::vector<bool> &front,
                                   std::vector<bool> &coarse) const
@@ -121,98 +108,16 @@ void MeshAdaptor<dim>::obey_boxes(const Discretization<dim> &discretization, std
   for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
     {
       discretization.cell_positions(cell, x);
-      Point<dim> centre;
-      for (const Point<dim> &node : x)
-        centre += node / double(x.size());
-      const auto inside = [&](const std::vector<Point<dim>> &boxes) {
-        for (std::size_t box = 0; box < boxes.size(); box += 2)
-          {
-            bool is_inside = true;
-            for (unsigned int d = 0; d < dim; ++d)
-              is_inside = is_inside && centre[d] >= std::min(boxes[box][d], boxes[box + 1][d]) &&
-                          centre[d] <= std::max(boxes[box][d], boxes[box + 1][d]);
-            if (is_inside)
-              return true;
-          }
-        return false;
-      };
-      const unsigned int index = discretization.cells()[cell]->active_cell_index();
-      coarse[index]            = inside(coarse_boxes);
-      front[index]             = !coarse[index] && (front[index] || inside(fine_boxes));
+      const BoundingBox<dim> extent(x);
+      const Point<dim>       centre = extent.center();
+      const unsigned int     index  = discretization.cells()[cell]->active_cell_index();
+      coarse[index]                 = in_some_box(coarse_boxes, centre, centre);
+      // a common face is no meeting
+      const Tensor<1, dim> inwards = 1e-6 * (extent.get_boundary_points().second - extent.get_boundary_points().first);
+      front[index] =
+        !coarse[index] && (front[index] || in_some_box(fine_boxes, extent.get_boundary_points().first + inwards,
+                                                       extent.get_boundary_points().second - inwards));
     }
-}
-
-template <int dim>
-void MeshAdaptor<dim>::flag(Triangulation &triangulation, const std::vector<bool> &front,
-                            const std::vector<bool> &quiet) const
-{
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-      {
-        const unsigned int level = cell->level();
-        cell->clear_refine_flag();
-        cell->clear_coarsen_flag();
-        if (front[cell->active_cell_index()] && level < base_level + levels)
-          cell->set_refine_flag();
-        else if (quiet[cell->active_cell_index()] && !front[cell->active_cell_index()] && level > base_level)
-          cell->set_coarsen_flag();
-      }
-  keep_beside_finer(triangulation);
-  share_flags(triangulation);
-  triangulation.prepare_coarsening_and_refinement();
-}
-
-/// Cells that touch finer ones, or will, stay as they are. Otherwise it would be deal.II that keeps them because of the rule of one hanging node
-/// per edge, which it cannot judge where the neighbours' families belong to other processes: the mesh would depend on the partition.
-template <int dim>
-void MeshAdaptor<dim>::keep_beside_finer(Triangulation &triangulation) const
-{
-  share_flags(triangulation);
-  std::vector<int> level(triangulation.n_vertices(), 0); // finest around each vertex
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (!cell->is_artificial())
-      for (const unsigned int v : cell->vertex_indices())
-        level[cell->vertex_index(v)] =
-          std::max(level[cell->vertex_index(v)], cell->level() + (cell->refine_flag_set() ? 1 : 0));
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->coarsen_flag_set())
-      for (const unsigned int v : cell->vertex_indices())
-        if (level[cell->vertex_index(v)] > cell->level())
-          cell->clear_coarsen_flag();
-}
-
-/// Other processes' cells beside own ones get their flags; in one dimension, where every process changes the whole mesh, all do.
-template <int dim>
-void MeshAdaptor<dim>::share_flags(Triangulation &triangulation) const
-{
-  if constexpr (dim == 1)
-    {
-      std::vector<int> flags(triangulation.n_active_cells(), 0);
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          flags[cell->active_cell_index()] = cell->refine_flag_set() ? 1 : (cell->coarsen_flag_set() ? -1 : 0);
-      Utilities::MPI::sum(flags, triangulation.get_communicator(), flags);
-      for (const auto &cell : triangulation.active_cell_iterators())
-        {
-          cell->clear_refine_flag();
-          cell->clear_coarsen_flag();
-          if (flags[cell->active_cell_index()] > 0)
-            cell->set_refine_flag();
-          else if (flags[cell->active_cell_index()] < 0)
-            cell->set_coarsen_flag();
-        }
-    }
-  else
-    GridTools::exchange_cell_data_to_ghosts<int, dealii::Triangulation<dim>>(
-      triangulation, [](const auto &cell) { return cell->refine_flag_set() ? 1 : (cell->coarsen_flag_set() ? -1 : 0); },
-      [](const auto &cell, const int flag) {
-        cell->clear_refine_flag();
-        cell->clear_coarsen_flag();
-        if (flag > 0)
-          cell->set_refine_flag();
-        else if (flag < 0)
-          cell->set_coarsen_flag();
-      });
 }
 
 template <int dim>
@@ -236,10 +141,8 @@ void MeshAdaptor<dim>::initial_refinement(Triangulation &triangulation, Discreti
               front[cell->active_cell_index()] = true;
       std::vector<bool> coarse(front.size(), false);
       obey_boxes(discretization, front, coarse);
-      grow(triangulation, front);
-      for (std::size_t i = 0; i < front.size(); ++i)
-        front[i] = front[i] && !coarse[i];
-      flag(triangulation, front, quiet);
+      const auto layers_of = layers_from(triangulation, front, base_level + levels, levels * layers);
+      set_flags(triangulation, wanted_levels(layers_of, coarse), quiet);
       check_size(triangulation, 0.);
       FieldTransfer<dim> transfer(discretization);
       transfer.add(discretization.positions);
@@ -254,21 +157,23 @@ void MeshAdaptor<dim>::initial_refinement(Triangulation &triangulation, Discreti
     }
 }
 
+/// Cells with a large indicator, and those with small ones.
 template <int dim>
-bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &dynamics, const State<dim> &state,
-                            const bool count)
+void MeshAdaptor<dim>::find_front(const Dynamics<dim> &dynamics, const State<dim> &state, std::vector<bool> &front,
+                                  std::vector<bool> &quiet)
 {
-  const Discretization<dim> &discretization = dynamics.discretization;
-  const auto                &cells          = discretization.cells();
-  const VectorType           velocity       = dynamics.velocity(state);
-  std::vector<bool>          front(triangulation.n_active_cells(), false), quiet(front.size(), true), coarse(front);
+  const auto      &cells    = dynamics.discretization.cells();
+  const VectorType velocity = dynamics.velocity(state);
   for (Indicator &indicator : indicators)
     {
       Vector<float> value(cells.size());
       indicator.kind->evaluate(dynamics, state, velocity, value);
-      const float largest = Utilities::MPI::max(cells.empty() ? 0.f : value.linfty_norm(), discretization.communicator);
-      // a wave that has left must not hand the fine cells over to what is left behind it
-      indicator.peak        = std::max(indicator.peak, largest);
+      const float largest =
+        Utilities::MPI::max(cells.empty() ? 0.f : value.linfty_norm(), dynamics.discretization.communicator);
+      // A wave that has left must not hand the fine cells over to what is left behind it, and one that fades by spreading must keep them:
+      // what was seen counts less with the square of the time since then, blasts fade more slowly
+      const double fading   = state.time > 0. ? std::min(1., std::pow(marked_at / state.time, 2)) : 1.;
+      indicator.peak        = std::max(static_cast<float>(fading) * indicator.peak, largest);
       const float reference = std::max(largest, 0.02f * indicator.peak);
       for (unsigned int cell = 0; cell < cells.size(); ++cell)
         {
@@ -277,25 +182,71 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
           quiet[index]             = quiet[index] && value[cell] <= coarsen_below * reference;
         }
     }
+  marked_at = state.time;
+}
+
+/// The finest level around the front, and belts as wide as this buffer of each coarser one around it: a front that moves by its buffer then finds
+/// cells that lack no more than one level. @p layers_of: layers_from() the front.
+template <int dim>
+std::vector<unsigned int> MeshAdaptor<dim>::wanted_levels(const std::vector<unsigned int> &layers_of,
+                                                          const std::vector<bool>         &coarse) const
+{
+  std::vector<unsigned int> wanted(layers_of.size(), base_level);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (!coarse[i])
+      wanted[i] = base_level + levels - std::min(levels, layers_of[i] / layers);
+  return wanted;
+}
+
+template <int dim>
+bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &dynamics, const State<dim> &state,
+                            const unsigned int pass)
+{
+  const Discretization<dim> &discretization = dynamics.discretization;
+  const auto                &cells          = discretization.cells();
+  const unsigned int         finest = base_level + levels, kept = static_cast<unsigned int>(layers_between_looks()) + 1;
+  std::vector<bool>          front(triangulation.n_active_cells(), false), quiet(front.size(), true), coarse(front);
+  find_front(dynamics, state, front, quiet);
   obey_boxes(discretization, front, coarse);
-  unsigned long met = 0;
+  const std::vector<unsigned int> layers_of = layers_from(triangulation, front, finest, levels * layers);
+  const std::vector<unsigned int> wanted    = wanted_levels(layers_of, coarse);
+
+  std::vector<unsigned long> count(4, 0); // in the front and too coarse; near it; below the wanted level; above
   for (const auto &cell : cells)
-    met += count && front[cell->active_cell_index()] && static_cast<unsigned int>(cell->level()) < base_level + levels;
-  n_met += Utilities::MPI::sum(met, discretization.communicator);
-  grow(triangulation, front);
-  for (std::size_t i = 0; i < front.size(); ++i)
-    if (coarse[i])
-      {
-        front[i] = false;
-        quiet[i] = true;
-      }
-  flag(triangulation, front, quiet);
+    {
+      const unsigned int index = cell->active_cell_index(), level = cell->level();
+      quiet[index] = quiet[index] || coarse[index];
+      count[0] += front[index] && level < finest;
+      count[1] += layers_of[index] < kept && level < finest && !coarse[index];
+      count[2] += level < wanted[index];
+      count[3] += quiet[index] && level > wanted[index];
+    }
+  Utilities::MPI::sum(count, discretization.communicator, count);
+  if (pass == 0)
+    n_met += count[0];
+  // a front that is far enough from coarse cells may wait, unless a quarter of all cells could be joined
+  const auto is_many = [&](const unsigned long n) { return 4 * n > triangulation.n_global_active_cells(); };
+  if (pass == 0 ? count[1] == 0 && !is_many(count[3]) : count[2] == 0)
+    return false;
+  keep_what_is_distorted(discretization, state.displacement, quiet);
+  set_flags(triangulation, wanted, quiet);
   check_size(triangulation, state.time);
-  unsigned int changes = 0;
+  unsigned long refined = 0, joined = 0;
+  for (const auto &cell : cells)
+    {
+      refined += cell->refine_flag_set();
+      joined += cell->coarsen_flag_set();
+    }
+  refined = Utilities::MPI::sum(refined, discretization.communicator);
+  joined  = Utilities::MPI::sum(joined, discretization.communicator);
+  if (pass > 0 ? refined > 0 : (count[1] > 0 ? refined + joined > 0 : is_many(joined)))
+    return true;
   for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-      changes += cell->refine_flag_set() || cell->coarsen_flag_set();
-  return Utilities::MPI::max(changes, discretization.communicator) > 0;
+    {
+      cell->clear_refine_flag();
+      cell->clear_coarsen_flag();
+    }
+  return false;
 }
 
 /// The flagged mesh must stay below the limit of the scene; said before any memory is asked for.
@@ -442,6 +393,7 @@ void MeshAdaptor<dim>::exchange(StateArchive &archive)
 {
   for (Indicator &indicator : indicators)
     archive.common(indicator.peak);
+  archive.common(marked_at);
   archive.common(crossed);
   archive.common(crossing_at_rest);
   archive.common(n_met);

@@ -31,7 +31,7 @@ void InitialEnergy<dim>::apply(const Dynamics<dim> &dynamics, State<dim> &state)
   if (text.empty())
     return;
   const Discretization<dim> &discretization = dynamics.discretization;
-  bool                       found = false, finite = true;
+  bool                       found = false, finite = true, zero = true;
   const auto                 value = [&](const unsigned int cell) {
     std::vector<Point<dim>> x;
     discretization.cell_positions(cell, x);
@@ -41,6 +41,7 @@ void InitialEnergy<dim>::apply(const Dynamics<dim> &dynamics, State<dim> &state)
         centre[d] += node[d] / x.size();
     const double energy = formula.value(centre);
     finite              = finite && std::isfinite(energy);
+    zero                = zero && energy == 0.;
     return energy;
   };
   for (unsigned int b = 0; b < dynamics.blocks.size(); ++b)
@@ -50,6 +51,9 @@ void InitialEnergy<dim>::apply(const Dynamics<dim> &dynamics, State<dim> &state)
                      ": no block has a law with an internal energy.");
   if (Utilities::MPI::min(finite ? 1 : 0, discretization.communicator) == 0)
     throw InputError("[Initial conditions] Internal energy = " + text + ": is not a number in some cells.");
+  if (Utilities::MPI::min(zero ? 1 : 0, discretization.communicator) == 1)
+    throw InputError("[Initial conditions] Internal energy = " + text +
+                     ": is zero at the centres of all cells. Refine the mesh there, or heat a larger region.");
 }
 
 template class InitialEnergy<1>;

@@ -436,7 +436,7 @@ bool Simulation<dim>::adapt(const double dt_old)
   std::optional<Conserved<dim>> before;
   for (unsigned int pass = 0; pass < scene.adaptor.max_passes(); ++pass)
     {
-      if (!scene.adaptor.mark(triangulation, *dynamics, state, pass == 0))
+      if (!scene.adaptor.mark(triangulation, *dynamics, state, pass))
         break;
       if (!before)
         before = dynamics->conserved(state, dt_old);

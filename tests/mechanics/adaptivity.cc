@@ -81,6 +81,7 @@ BOOST_AUTO_TEST_CASE(front_is_followed, *label("parallel"))
   adaptive.push_back("Adaptivity/Levels=1");
   adaptive.push_back("Adaptivity/Refine above=0.1");
   adaptive.push_back("Adaptivity/Coarsen below=0.02");
+  adaptive.push_back("Adaptivity/Buffer layers=2");
   const RunRecord fine = run_scene(cavity_scene, uniform), followed = run_scene(cavity_scene, adaptive),
                   coarse = run_scene(cavity_scene, wide_cavity);
   const std::string key  = "array.displacement.E_t";

@@ -16,7 +16,7 @@ class StateArchive;
 ///
 /// Cells one of whose indicators exceeds a part of its global maximum (at least 2 % of the largest so far) are the front. They and `Buffer layers` of cells around them are
 /// refined to the finest level; cells outside with a small indicator are coarsened, never below the initial mesh. The mesh is
-/// adapted again before a P wave has crossed the buffer, so that the front never meets a coarse cell.
+/// adapted again before the front has crossed the buffer, which it may do with the speed of P waves, so that it never meets a coarse cell.
 ///
 /// Displacement, velocity, positions and boundary scalars are interpolated. Positions are a field like the others: refined cells
 /// keep the polynomial shape of their parents, fields are transferred exactly under refinement, and the mass changes only as far as
@@ -39,11 +39,13 @@ public:
   /// A step of length @p dt was done, in which a P wave would need @p crossing for the smallest cell of blocks that store points.
   void follow(const double dt, const double crossing) { crossed += dt / std::min(crossing, crossing_at_rest); }
 
-  bool due() const { return active() && crossed >= std::max(layers - 1., 0.5); }
+  bool due() const { return active() && crossed >= layers_between_looks(); }
 
-  /// Flags for the present state. Returns whether the mesh will change on any process. Collective. @p count: the fields come from
-  /// a run on the present mesh, so that coarse cells in the front are ones that it has met.
-  bool mark(Triangulation &, const Dynamics<dim> &, const State<dim> &, bool count);
+  /// Flags for the present state. Returns whether the mesh will change on any process. Collective.
+  ///
+  /// In the first @p pass of an adaptation the fields come from a run on the present mesh, so that coarse cells in the front are ones that it has met; the
+  /// mesh stays as it is while the front keeps its distance from them and not much could be coarsened. Further passes refine what lacks more than one level.
+  bool mark(Triangulation &, const Dynamics<dim> &, const State<dim> &, unsigned int pass);
 
   /// Cells below the finest level that were part of the front when the mesh was adapted, over the run: the buffer was too thin,
   /// or something started away from the front. Summed over processes.
@@ -53,7 +55,7 @@ public:
   /// everything. The stable step still has to be updated.
   void execute(Triangulation &, Dynamics<dim> &, State<dim> &, StableTimeStep<dim> &) const;
 
-  /// The buffer is whole: the next adaptation is due when a P wave may have crossed all of its layers but one.
+  /// The next look at the front is due when a P wave may have crossed some layers.
   void schedule(const Dynamics<dim> &);
 
   unsigned int max_passes() const { return levels; }
@@ -62,17 +64,20 @@ public:
   void exchange(StateArchive &);
 
 private:
+  /// All layers but one, or half of them where a look in between may show that the front is slower than P waves.
+  double layers_between_looks() const { return layers < 6 ? std::max(layers - 1., 0.5) : 0.5 * (layers - 1.); }
+
+  std::vector<unsigned int> wanted_levels(const std::vector<unsigned int> &layers_of,
+                                          const std::vector<bool>         &coarse) const;
+
+  void find_front(const Dynamics<dim> &, const State<dim> &, std::vector<bool> &front, std::vector<bool> &quiet);
   void obey_boxes(const Discretization<dim> &, std::vector<bool> &front, std::vector<bool> &coarse) const;
-  void grow(Triangulation &, std::vector<bool> &marked) const;
-  void share_flags(Triangulation &) const;
-  void keep_beside_finer(Triangulation &) const;
   void check_size(const Triangulation &, double time) const;
-  void flag(Triangulation &, const std::vector<bool> &front, const std::vector<bool> &quiet) const;
 
   struct Indicator
   {
     std::unique_ptr<RefinementIndicator<dim>> kind;
-    float                                     peak = 0.f; ///< largest so far
+    float                                     peak = 0.f; ///< largest so far, faded
   };
 
   std::vector<std::string>                types{"wave front"};
@@ -81,8 +86,9 @@ private:
   std::vector<std::string>                boundary_names{"auto"};
   std::vector<dealii::types::boundary_id> initial_boundaries;
   bool                                    automatic_boundaries = true, refine_geometry = false;
-  unsigned int                            levels = 0, base_level = 0, layers = 2, cell_limit = 50000000;
+  unsigned int                            levels = 0, base_level = 0, layers = 8, cell_limit = 50000000;
   double                                  refine_above = 0.2, coarsen_below = 0.05;
+  double                                  marked_at = 0.;                          ///< time of the last mark() [s]
   double crossed = 0., crossing_at_rest = std::numeric_limits<double>::infinity(); ///< layers; [s] of the smallest cell
   unsigned long n_met = 0;
 };
