@@ -32,6 +32,7 @@ void Simulation<dim>::exchange_state(StateArchive &archive)
                         &record.mass_error, &record.momentum_error, &record.dof_steps})
     archive.common(*value);
   archive.common(n_adaptations);
+  archive.common(step_of_adaptation);
   archive.common(warned_of_step);
 }
 

@@ -341,6 +341,7 @@ bool Simulation<dim>::run(const OutputDirectory &directory)
     }
   record_dissipation();
   record_parts();
+  record.adaptation_core_seconds = adaptation_seconds;
   if (n_adaptations > 0)
     log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
         << 100. * adaptation_seconds / record.core_seconds << " % of the run); the front met "
@@ -445,7 +446,8 @@ bool Simulation<dim>::adapt(const double dt_old)
     }
   if (before)
     {
-      scene.time_step.update(*dynamics);
+      scene.time_step.update(*dynamics, state.step - step_of_adaptation); // as many as the mesh before had
+      step_of_adaptation = state.step;
       if (dynamics->stores_points())
         scene.time_step.follow(dynamics->point_limits(state).stable_step);
       const double dt = scene.time_step.next(state.time, scene.end_time, state.dt_last);

@@ -27,6 +27,7 @@ struct RunRecord
 
   // ranks x wall time [s]
   double setup_core_seconds = 0., core_seconds = 0., output_core_seconds = 0.;
+  double adaptation_core_seconds = 0.; ///< part of core_seconds
 
   double energy_error = 0., mass_error = 0., momentum_error = 0.;
   double dissipation = 0., artificial_dissipation = 0.,

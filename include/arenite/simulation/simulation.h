@@ -78,7 +78,7 @@ private:
   State<dim>                     state;
   double                         initial_mass = 0., output_seconds = 0., adaptation_seconds = 0.;
   double                         step_power = 0., known_energy = 0.;
-  unsigned int                   n_adaptations  = 0;
+  unsigned int                   n_adaptations = 0, step_of_adaptation = 0;
   bool                           warned_of_step = false;
   Clock::time_point              begin;   ///< of the time loop
   double earlier_seconds = 0.;            ///< core-seconds of the runs that this one goes on with, without their set-up

@@ -32,8 +32,9 @@ public:
   /// Both estimates for the first mesh. Collective, like update().
   void calibrate(Dynamics<dim> &);
 
-  /// Both estimates for a later mesh, with the ratios of its cells in place.
-  void update(Dynamics<dim> &);
+  /// Both estimates for a later mesh, with the ratios of its cells in place. The second takes as long as up to 80 steps: it pays for a mesh of
+  /// @p expected_steps that are some hundreds, else the elements alone say how long a step is.
+  void update(Dynamics<dim> &, unsigned int expected_steps = std::numeric_limits<unsigned int>::max());
 
   /// Largest step of the present mesh, 2/omega_max, without the Courant number [s].
   double limit() const { return follows_points ? std::min(elastic_step, step_of_points) : critical_step; }
