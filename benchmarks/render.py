@@ -5,6 +5,8 @@
 
     render.py output/buried_cavity/solution.pvd surface.png --time 3e-3 --mirror --edges
 
+    render.py output/following_the_front/solution.pvd strip.png --time 6e-4 1.2e-3 1.8e-3 --edges --range 0 1    side by side
+
     render.py output/bar/solution.pvd bar.png --warp --mirror --edges         large strain: the body as it is now
 
 FILE is a .pvtu, a .vtu, or the solution.pvd of a run (its last picture, or --time T). Surfaces and edges are those of the
@@ -38,7 +40,7 @@ def arguments():
     parser.add_argument("--range", type=float, nargs=2, metavar=("MIN", "MAX"), help="ends of the colour scale")
     parser.add_argument("--view", type=float, nargs=3, metavar=("X", "Y", "Z"), help="direction from the body to the eye")
     parser.add_argument("--size", type=int, nargs=2, default=(1200, 900), metavar=("WIDTH", "HEIGHT"), help="pixels")
-    parser.add_argument("--time", type=float, help="with a .pvd: the picture nearest to this time [s]")
+    parser.add_argument("--time", type=float, nargs="+", help="with a .pvd: the picture nearest to this time [s]; several side by side")
     parser.add_argument("--label", help="text of the colour scale (default: field, component and unit)")
     return parser.parse_args()
 
@@ -58,14 +60,14 @@ if not os.environ.get("DISPLAY"):
 
 
 # --- reading ------------------------------------------------------------------------------------------------------------
-def chosen_file():
+def chosen_file(time):
     file = options.file
     if file.suffix == ".pvd" and file.is_file():
         sets = ElementTree.parse(file).getroot().findall(".//DataSet")
         if not sets:
             stop(f"{file} lists no picture")
         at = (lambda s: float(s.get("timestep")))
-        best = max(sets, key=at) if options.time is None else min(sets, key=lambda s: abs(at(s) - options.time))
+        best = max(sets, key=at) if time is None else min(sets, key=lambda s: abs(at(s) - time))
         file = file.parent / best.get("file")
     if not file.is_file():
         stop(f"{file} is not there")
@@ -211,10 +213,9 @@ def colour_scale(low, high, colours):
     return table
 
 
-def main():
-    grid = read(chosen_file())
-    if not options.picture.resolve().parent.is_dir():
-        stop(f"there is no directory for {options.picture}")
+def draw(file):
+    """The image of one state."""
+    grid = read(file)
     body, edges, never_negative = surface(grid)
     if options.range:
         low, high = options.range
@@ -337,9 +338,19 @@ def main():
     image = vtk.vtkWindowToImageFilter()
     image.SetInput(window)
     image.ReadFrontBufferOff()
+    image.Update()
+    return image.GetOutput()
+
+
+def main():
+    if not options.picture.resolve().parent.is_dir():
+        stop(f"there is no directory for {options.picture}")
+    row = vtk.vtkImageAppend()
+    for time in options.time or [None]:
+        row.AddInputData(draw(chosen_file(time)))
     writer = vtk.vtkPNGWriter()
     writer.SetFileName(str(options.picture))
-    writer.SetInputConnection(image.GetOutputPort())
+    writer.SetInputConnection(row.GetOutputPort())
     writer.Write()
     if writer.GetErrorCode() or not options.picture.is_file():
         stop(f"{options.picture} cannot be written")

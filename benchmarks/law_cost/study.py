@@ -24,7 +24,7 @@ def measure(form, element, law, cells=None, **more):
     kind, degree, points = ELEMENTS[element]
     scene, kinematics = LAWS[law]
     n = (cells or cells_of_form) // degree
-    corner = (1 if symmetry == "spherical" else 0,) + (0,) * (dimension - 1)
+    corner = (1 if symmetry in ("spherical", "axisymmetric") else 0,) + (0,) * (dimension - 1)
     step = 0.3 / n / degree**2 / 310.
     settings = {"Dimension": dimension, "Symmetry": symmetry, "Kinematics": kinematics, "Element/Type": kind,
                 "Element/Degree": degree, "Mesh/Cells": ", ".join([str(n)] * dimension), "Mesh/Lower corner": ", ".join(map(str, corner)),

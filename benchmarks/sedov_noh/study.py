@@ -7,13 +7,21 @@ import numpy
 from reference import GasPiston, Noh, Sedov
 
 study = common.Study(__file__)
-ELEMENTS = {name: tuning.ELEMENTS[name] for name in ("Q1, one point", "Q1, 2x2x2")}
+# a gas has no stiffness that a control of stiffness could follow
+ELEMENTS = {"Q1, one point": {**tuning.ELEMENTS["Q1, one point"], "Element/Hourglass control": "viscous", "Element/Hourglass coefficient": .15},
+            "Q1, 2x2x2": tuning.ELEMENTS["Q1, 2x2x2"]}
 FORMS = {"radius": {"Dimension": 1, "Symmetry": "spherical"},
          "meridian plane": {"Dimension": 2, "Symmetry": "axisymmetric", "Constraints/Symmetry planes": "x min, y min"},
          "octant": {"Dimension": 3, "Symmetry": "none", "Constraints/Symmetry planes": "x min, y min, z min"}}
 DIAGONAL = {"radius": "1, 0, 0", "meridian plane": "1, 0, 1", "octant": "1, 1, 1"}
 LADDERS = {"radius": study.choose((100, 200, 400, 800), quick=(50, 100)), "meridian plane": study.choose((30, 60, 120), quick=(20,)),
            "octant": study.choose((16, 32), quick=(12,))}
+DEAR = {"meridian plane": 120, "octant": 32}  # cells of 2x2x2 points take minutes from here on, and the errors of their blasts do not fall
+
+
+def folds(run):
+    """Whether cells turned inside out at corners."""
+    return "folded at a corner" in (run.directory / "log.txt").read_text()
 orders = []
 
 
@@ -46,12 +54,11 @@ def blast(gamma, form, element, cells):
     # the outermost place where the density is above the middle of the exact jump, or of its own largest value on coarse meshes
     fronts = [line.crossing(line.rho, min(jump, (1 + line.rho.max()) / 2), line.x) for line in lines]
     line = lines[0]
-    v, rho, p = exact.at(line.x, end)
-    away = line.x > .1  # the source keeps too much entropy on every mesh
+    away = line.X > .3  # the source keeps too much entropy on every mesh, and its surroundings fold in the plane and in space
+    v, rho, p = exact.at(numpy.where(away, line.x, 1.), end)
     return study.add(f"Sedov {gamma:.3g}, {form}, {element}", run, line.l1(line.rho, rho, away), cells=cells, v_L1=line.l1(line.v, v, away),
                      p_L1=line.l1(line.p, p, away), front=profiles.relative(fronts[0], R),
-                     diagonal=profiles.relative(fronts[-1], R), centre_p=profiles.relative(line.mean(line.p, .05 * size, .2 * size), p[0]),
-                     energy_error=run["energy_error"])
+                     diagonal=profiles.relative(fronts[-1], R), folds=folds(run), energy_error=run["energy_error"])
 
 
 def implosion(hoops, form, element, cells):
@@ -75,7 +82,7 @@ def implosion(hoops, form, element, cells):
     return study.add(f"Noh {name}, {form}, {element}", run, line.l1(line.rho, rho, near), cells=cells, v_L1=line.l1(line.v, v, near),
                      p_L1=line.l1(line.p, p, near), front=fronts[0] - .2, diagonal=fronts[-1] - .2,
                      plateau_rho=profiles.relative(line.rho[plateau].mean(), exact.rho), wall_rho=line.rho[0] / exact.rho - 1,
-                     energy_error=run["energy_error"])
+                     folds=folds(run), energy_error=run["energy_error"])
 
 
 def piston(element, skewed, cells=100):
@@ -108,6 +115,7 @@ def converge(name, rows, ladder):
 
 for element in ELEMENTS:
     for form, ladder in LADDERS.items():
+        ladder = [cells for cells in ladder if element != "Q1, 2x2x2" or cells < DEAR.get(form, math.inf)]
         for gamma in study.choose((1.4, 5 / 3), quick=(1.4,)):
             converge(f"Sedov {gamma:.3g}, {form}, {element}", [blast(gamma, form, element, cells) for cells in ladder], ladder)
         for hoops in ((0, 1, 2) if form == "radius" else (2,)):

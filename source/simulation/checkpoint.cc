@@ -28,12 +28,14 @@ void Simulation<dim>::exchange_state(StateArchive &archive)
   scene.time_step.exchange(archive);
   scene.adaptor.exchange(archive);
   archive.sum(step_power);
-  for (double *value : {&known_energy, &initial_mass, &output_seconds, &adaptation_seconds, &earlier_seconds,
-                        &record.mass_error, &record.momentum_error, &record.dof_steps})
+  for (double *value :
+       {&cell_steps, &local_cell_steps, &known_energy, &initial_mass, &output_seconds, &adaptation_seconds,
+        &earlier_seconds, &record.mass_error, &record.momentum_error, &record.dof_steps})
     archive.common(*value);
   archive.common(n_adaptations);
   archive.common(step_of_adaptation);
   archive.common(warned_of_step);
+  archive.common(warned_of_folding);
 }
 
 /// How far the files of the run are.

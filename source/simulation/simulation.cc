@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -63,6 +64,7 @@ void Simulation<dim>::set_up(const FoundCheckpoint *const checkpoint)
   const auto start = Clock::now();
   scene.mesh.geometry->create(triangulation);
   check_blocks();
+  balance_work();
   if (checkpoint)
     load_mesh(*checkpoint);
   else
@@ -102,6 +104,32 @@ std::unique_ptr<InternalForce<dim>> Simulation<dim>::make_block(Block &block) co
         << scene.element.linear_viscosity
         << " does not prevent in a compacting soil, that stays. 0.6 with a quadratic one of 2 does.\n";
   return make_law_force<dim>(scene.element, scene.kinematics, std::move(block.law), id, scene.symmetry);
+}
+
+/// Cells of blocks with laws take longer than fused elastic ones.
+template <int dim>
+void Simulation<dim>::balance_work()
+{
+  std::map<types::material_id, unsigned int> cost;
+  std::set<unsigned int>                     different;
+  for (const Block &block : scene.blocks)
+    different.insert(cost[block.material_id] = !block.law                           ? CellCost::elastic
+                                               : block.law->history_names().empty() ? CellCost::law
+                                                                                    : CellCost::law_with_memory);
+  cost_of_cells = [cost, only = scene.blocks.size() == 1](const types::material_id id) {
+    return only ? cost.begin()->second : cost.at(id);
+  };
+  if (different.size() > 1)
+    divide_by_cost(triangulation, cost_of_cells);
+}
+
+/// The present mesh has served since the last adaptation.
+template <int dim>
+void Simulation<dim>::note_levels()
+{
+  const double updates = double(state.step - step_of_adaptation) * triangulation.n_global_active_cells();
+  cell_steps += updates;
+  local_cell_steps += updates * share_of_updates(triangulation);
 }
 
 /// Every cell needs a block and every block a cell; a single block takes all cells.
@@ -182,6 +210,8 @@ void Simulation<dim>::describe() const
     text << " + up to " << scene.adaptor.max_passes();
   text << ", " << ranks << (ranks == 1 ? " process" : " processes") << '\n'
        << "Unknowns   " << unknowns() << ", " << scene.element.type << " of degree " << scene.element.degree << '\n';
+  if (const std::string parts = describe_partition(discretization, cost_of_cells); ranks > 1)
+    text << "Processes  " << parts << '\n';
   for (unsigned int b = 0; b < scene.blocks.size(); ++b)
     {
       const LinearElastic &m = scene.blocks[b].material;
@@ -346,6 +376,13 @@ bool Simulation<dim>::run(const OutputDirectory &directory)
     log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
         << 100. * adaptation_seconds / record.core_seconds << " % of the run); the front met "
         << scene.adaptor.coarse_cells_met() << " cells before they were refined\n";
+  note_levels();
+  if (local_cell_steps < 0.99 * cell_steps)
+    log << "Levels     with a step of their own " << 100. * local_cell_steps / cell_steps
+        << " % of the updates of cells would be left\n";
+  if (const std::string parts = describe_partition(discretization, cost_of_cells);
+      n_adaptations > 0 && Utilities::MPI::n_mpi_processes(communicator) > 1)
+    log << "Processes  " << parts << '\n';
   return true;
 }
 
@@ -440,7 +477,10 @@ bool Simulation<dim>::adapt(const double dt_old)
       if (!scene.adaptor.mark(triangulation, *dynamics, state, pass))
         break;
       if (!before)
-        before = dynamics->conserved(state, dt_old);
+        {
+          before = dynamics->conserved(state, dt_old);
+          note_levels();
+        }
       scene.adaptor.execute(triangulation, *dynamics, state, scene.time_step);
       dynamics->compute_force(state);
     }
@@ -481,6 +521,7 @@ void Simulation<dim>::observe(const OutputDirectory &directory, const double dt,
       const EnergyReport report = dynamics->report(state, dt);
       scene.statistics.add(report, {state.step, dt, triangulation.n_global_active_cells(), unknowns()});
       watch(report);
+      watch_corners();
       known_energy = report.scale();
     }
   if (scene.pictures.enabled() && (last || scene.pictures.is_due(state.time, dt)))

@@ -1,4 +1,5 @@
 #include <arenite/base/errors.h>
+#include <arenite/mesh/cell_audit.h>
 #include <arenite/simulation/simulation.h>
 
 #include <cmath>
@@ -92,6 +93,49 @@ void Simulation<dim>::watch_step(const double dt)
   log.line(text.str());
 }
 
+/// Warn once of cells that are folded at a corner, though their points see nothing of it: gas and liquids have no stiffness against
+/// patterns in which cells turn inside out, and a run goes on without an alarm.
+template <int dim>
+void Simulation<dim>::watch_corners()
+{
+  if (warned_of_folding || dim == 1 || !scene.kinematics.finite_strain())
+    return;
+  const unsigned int      p = discretization.degree();
+  std::vector<Point<dim>> corners(GeometryInfo<dim>::vertices_per_cell);
+  unsigned int            folded = 0, first = 0;
+  for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
+    {
+      for (unsigned int v = 0; v < corners.size(); ++v)
+        {
+          unsigned int node = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            node += (v >> d & 1) * p * Utilities::pow(p + 1, d);
+          node       = discretization.cell_nodes(cell)[node];
+          corners[v] = discretization.position(node);
+          for (unsigned int c = 0; c < dim; ++c)
+            corners[v][c] += state.displacement.local_element(dim * node + c);
+        }
+      bool is_sound = true;
+      for (unsigned int v = 0; v < corners.size() && is_sound; ++v)
+        is_sound = !(corner_jacobian(corners, v) < 0.);
+      if (!is_sound && folded++ == 0)
+        first = cell;
+    }
+  const unsigned int total = Utilities::MPI::sum(folded, communicator);
+  if (total == 0)
+    return;
+  warned_of_folding          = true;
+  const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
+  const unsigned int speaker = Utilities::MPI::min(folded > 0 ? rank : numbers::invalid_unsigned_int, communicator);
+  Point<dim>         place   = rank == speaker ? discretization.cells()[first]->center() : Point<dim>();
+  place                      = Utilities::MPI::broadcast(communicator, place, speaker);
+  std::ostringstream text;
+  text << "Warning    t = " << state.time << " s: " << total << (total == 1 ? " cell is" : " cells are")
+       << " folded at a corner, one around (" << place
+       << ") before it moved; do not trust the motion there. Hourglass control and a smoother start help.";
+  log.line(text.str());
+}
+
 /// Stop a run whose state left physics: with the time, the place and the likely cause.
 template <int dim>
 void Simulation<dim>::watch(const EnergyReport &report)
@@ -148,6 +192,7 @@ void Simulation<dim>::watch(const EnergyReport &report)
   template std::string Simulation<dim>::describe_points(unsigned int, unsigned int) const; \
   template void        Simulation<dim>::watch(const PointLimits<dim> &) const;             \
   template void        Simulation<dim>::watch(const EnergyReport &);                       \
+  template void        Simulation<dim>::watch_corners();                                   \
   template void        Simulation<dim>::watch_step(double);
 ARENITE_INSTANTIATE(1)
 ARENITE_INSTANTIATE(2)

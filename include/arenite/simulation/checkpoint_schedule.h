@@ -34,7 +34,7 @@ private:
   Wish         wish_of_first_process();
   unsigned int steps_until_next_look(unsigned int step);
 
-  double       interval = 0., largest_time = 0.; ///< wall time [s]
+  double       interval = 3600., largest_time = 0.; ///< wall time [s]
   unsigned int steps = 0;
 
   const Clock::time_point begin           = Clock::now();

@@ -6,6 +6,7 @@
 #include <arenite/io/log.h>
 #include <arenite/io/output_directory.h>
 #include <arenite/io/run_record.h>
+#include <arenite/simulation/mesh_summary.h>
 #include <arenite/simulation/scene.h>
 #include <arenite/time/dynamics.h>
 
@@ -44,6 +45,7 @@ private:
   using Clock = std::chrono::steady_clock;
 
   void                                check_blocks() const;
+  void                                balance_work();
   void                                make_mesh();
   void                                start_from_rest();
   void                                load_mesh(const FoundCheckpoint &);
@@ -62,6 +64,7 @@ private:
   void                                watch(const PointLimits<dim> &) const;
   std::string                         describe_points(unsigned int block, unsigned int cell) const;
   void                                watch_step(double dt);
+  void                                watch_corners();
   double                              fastest_node() const;
   void                                record_dissipation();
   void                                record_parts();
@@ -69,6 +72,7 @@ private:
   double                              core_seconds(Clock::time_point since) const;
 
   MaterialOfBlock material_of_block() const;
+  void            note_levels();
 
   Log                           &log;
   const MPI_Comm                 communicator;
@@ -79,9 +83,11 @@ private:
   double                         initial_mass = 0., output_seconds = 0., adaptation_seconds = 0.;
   double                         step_power = 0., known_energy = 0.;
   unsigned int                   n_adaptations = 0, step_of_adaptation = 0;
-  bool                           warned_of_step = false;
-  Clock::time_point              begin;   ///< of the time loop
-  double earlier_seconds = 0.;            ///< core-seconds of the runs that this one goes on with, without their set-up
+  bool                           warned_of_step = false, warned_of_folding = false;
+  CostOfCells                    cost_of_cells;
+  double            cell_steps = 0., local_cell_steps = 0.; ///< updates of cells; those left with a step per level
+  Clock::time_point begin;                                  ///< of the time loop
+  double            earlier_seconds = 0.; ///< core-seconds of the runs that this one goes on with, without their set-up
   std::optional<SavedCells<dim>> saved;   ///< while it is loaded
   std::unique_ptr<StateArchive>  archive; ///< as well
 };
