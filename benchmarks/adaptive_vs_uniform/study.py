@@ -41,24 +41,18 @@ BLAST = Sedov(1.4)
 
 
 def blast(form, cells, adaptive, ranks):
-    """All energy in the cell at the origin of the finest mesh; error of rho in what began beyond 0.3 m. In the core, which
-    has neither mass nor stiffness, cells of gas fold in the plane and in space, on equal meshes too; it stays as fine as those."""
+    """All energy in the cell at the origin of the finest mesh; error of rho in what began beyond 0.3 m. In the plane and in space cells fold around
+    the source, with equal cells too (sedov_noh): nothing to compare."""
     size, end = 1.2, .9
     h = size / (cells * 2 ** int(adaptive.get("Adaptivity/Levels", 0)))
-    volume = {1: 4 * math.pi / 3, 2: 2 * math.pi, 3: 8}[form] * h ** 3
-    inside = {1: "x", 2: "max(x, y)", 3: "max(x, y, z)"}[form]
     if adaptive:
-        adaptive = {**adaptive, "Adaptivity/Refined boxes": f"{', '.join(['0'] * form)}; {', '.join(['0.3'] * form)}"}
-    planes = {} if form == 1 else {"Constraints/Symmetry planes": ", ".join(f"{x} min" for x in "xyz"[:form])}
+        adaptive = {**adaptive, "Adaptivity/Refined boxes": "0; 0.3"}
     run = study.run(here.parent / "sedov_noh" / "blast.prm", {
-        **FORMS[form], **planes, **ONE_POINT, "Mesh/Upper corner": ", ".join([str(size)] * form),
-        "Mesh/Cells": ", ".join([str(cells)] * form), "End time": end,
-        "Initial conditions/Internal energy": f"({inside} < {h:.9g}) ? {1 / volume:.9g} : 0", **adaptive,
+        **FORMS[form], **ONE_POINT, "Mesh/Upper corner": size, "Mesh/Cells": cells, "End time": end,
+        "Initial conditions/Internal energy": f"(x < {h:.9g}) ? {3 / (4 * math.pi * h ** 3):.9g} : 0", **adaptive,
         **profiles.along("wall", POINTS, size, interval=end)}, ranks, repeat=1)
     line = profiles.read(run, "wall", power=2)
-    outside = line.X > .3
-    exact = BLAST.at(numpy.where(outside, line.x, 1.), end)[1]
-    return run, line.l1(numpy.where(outside, line.rho, 0.), exact, outside)
+    return run, line.l1(line.rho, BLAST.at(line.x, end)[1], line.X > .3)
 
 
 def signals(run):
@@ -94,12 +88,10 @@ CASES = {  # name -> problem, form, indicators, equal meshes, (size, levels) of 
     "elastic pulse, octant": (pulse, 3, WAVE, (1, 2, 3, 4), ((1, 1), (1, 2), (1, 3))),
     "soil, plane wave": (soil, 1, FOOT, (100, 200, 400, 800, 1600), ((50, 3), (100, 3), (100, 4))),
     "blast, radius": (blast, 1, SHOCK, (100, 200, 400, 800), ((50, 2), (50, 3), (50, 4))),
-    "blast, meridian plane": (blast, 2, SHOCK, (30, 60, 120), ((15, 2), (15, 3))),
-    "blast, octant": (blast, 3, SHOCK, (16, 32, 64), ((8, 2), (8, 3))),
     "cap cavity, radius": (cap, 1, CAVITY, (1, 2, 3, 4), ((1, 2), (1, 3), (1, 4))),
     "cap cavity, meridian plane": (cap, 2, CAVITY, (1, 2, 3, 4), ((1, 1), (1, 2), (1, 3))),
     "cap cavity, octant": (cap, 3, CAVITY, (1, 2, 3), ((1, 1), (1, 2)))}
-QUICK = {"cap cavity, radius": ((1, 2), ((1, 1),)), "soil, plane wave": ((100,), ((50, 1),)), "elastic pulse, radius": ((2,), ((1, 1),))}
+QUICK = {"cap cavity, radius": ((1, 2), ((1, 1),)), "soil, plane wave": ((100,), ((50, 1),)), "elastic pulse, radius": ((2,), ((1, 1),)), "blast, radius": ((100,), ((50, 1),))}
 summary = []
 for name, (problem, form, indicators, ladder, meshes) in CASES.items():
     if study.quick:
@@ -120,7 +112,7 @@ for name, (problem, form, indicators, ladder, meshes) in CASES.items():
         for layers in study.choose((4, 8, 16), quick=(8,)):
             measure("adaptive", size, levels, layers)
     if form == 3:
-        measure("equal cells", ladder[-1], ranks=2)
+        measure("equal cells", ladder[-2], ranks=2)
         best = min(rows["adaptive", 1], key=lambda row: row["error"] * row["core_seconds"])
         measure("adaptive", best["size"], best["levels"], best["layers"], ranks=2)
     for target in sorted({row["error"] for row in rows["equal cells", 1]}):
