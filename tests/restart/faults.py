@@ -165,14 +165,14 @@ def limits(runs):
     slow = ["--set", "Mesh/Cells=800"]
     whole, out = runs.folder / "whole", runs.folder / "out"
     runs.expect(0, "whole", whole, *slow)
-    runs.expect(75, "wall time", out, *slow, "--set", "Output/Largest wall time=1.2", says=["by the largest wall time"])
+    runs.expect(75, "wall time", out, *slow, "--set", "Output/Largest wall time=0.6", says=["by the largest wall time"])
     (out / "STOP").touch()
     runs.expect(75, "STOP", out, *slow, "--resume", says=["by a file STOP"])
     if (out / "STOP").exists():
         runs.found.append("STOP is still there and would stop the next run")
     runs.expect(0, "the rest", out, *slow, "--resume", says=["Resumed"])
     runs.same("three pieces", whole, out)
-    runs.expect(0, "by wall time", runs.folder / "interval", *slow, "--set", "Output/Checkpoint interval=0.3", says=["Checkpoint t = "])
+    runs.expect(0, "by wall time", runs.folder / "interval", *slow, "--set", "Output/Checkpoint interval=0.1", says=["Checkpoint t = "])
 
     with sys.modules["run"].disk(runs.folder, ["700k"]) as disk:
         out = disk / "output"
