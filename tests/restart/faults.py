@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Damaged checkpoints, changed scenes, signals and limits. Usage: faults.py <arenite> <case> [ranks]
 
-Cases: damage, changes, signals, limits. Each message has at most 10 lines and no stack trace.
+Cases: damage, changes, signals, limits, full_disk. Each message has at most 10 lines and no stack trace.
 """
 import importlib.util, json, os, shutil, signal, subprocess, sys, tempfile, time
 from pathlib import Path
@@ -161,7 +161,7 @@ def signals(runs):
 
 
 def limits(runs):
-    """The wall time and a file STOP end a run with a checkpoint; a full disk ends it with exit code 4 and the checkpoint before in place."""
+    """The wall time and a file STOP end a run with a checkpoint."""
     slow = ["--set", "Mesh/Cells=800"]
     whole, out = runs.folder / "whole", runs.folder / "out"
     runs.expect(0, "whole", whole, *slow)
@@ -174,6 +174,10 @@ def limits(runs):
     runs.same("three pieces", whole, out)
     runs.expect(0, "by wall time", runs.folder / "interval", *slow, "--set", "Output/Checkpoint interval=0.1", says=["Checkpoint t = "])
 
+
+def full_disk(runs):
+    """A full disk ends a run with exit code 4 and the checkpoint before in place."""
+    slow = ["--set", "Mesh/Cells=800"]
     with sys.modules["run"].disk(runs.folder, ["700k"]) as disk:
         out = disk / "output"
         runs.expect(4, "disk full", out, *slow, "--set", "Output/Checkpoint steps=300", says=["cannot be written"])
@@ -188,6 +192,6 @@ if __name__ == "__main__":
         sys.exit(__doc__)
     with tempfile.TemporaryDirectory(prefix="arenite-") as name:
         all_runs = Runs(sys.argv[1], int((sys.argv[3:] or ["1"])[0]), Path(name))
-        {case.__name__: case for case in (damage, changes, signals, limits)}[sys.argv[2]](all_runs)
+        {case.__name__: case for case in (damage, changes, signals, limits, full_disk)}[sys.argv[2]](all_runs)
     print("".join(f"FAILED: {p}\n" for p in all_runs.found) or "passed\n", end="")
     sys.exit(bool(all_runs.found))
