@@ -6,7 +6,7 @@ import common, tuning
 import numpy
 
 study = common.Study(__file__)
-P_WAVE, PULSE, WIDTH = 349.825, .25, .0625
+P_WAVE, PULSE = 349.825, .25
 
 
 def velocity(element, cells, refined):

@@ -222,11 +222,12 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
       count[3] += quiet[index] && level > wanted[index];
     }
   Utilities::MPI::sum(count, discretization.communicator, count);
+  const unsigned long met = count[0], near = count[1], below = count[2], above = count[3];
   if (pass == 0)
-    n_met += count[0];
+    n_met += met;
   // a front that is far enough from coarse cells may wait, unless a quarter of all cells could be joined
   const auto is_many = [&](const unsigned long n) { return 4 * n > triangulation.n_global_active_cells(); };
-  if (pass == 0 ? count[1] == 0 && !is_many(count[3]) : count[2] == 0)
+  if (pass == 0 ? near == 0 && !is_many(above) : below == 0)
     return false;
   keep_what_is_distorted(discretization, state.displacement, quiet);
   set_flags(triangulation, wanted, quiet);
@@ -239,7 +240,7 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
     }
   refined = Utilities::MPI::sum(refined, discretization.communicator);
   joined  = Utilities::MPI::sum(joined, discretization.communicator);
-  if (pass > 0 ? refined > 0 : (count[1] > 0 ? refined + joined > 0 : is_many(joined)))
+  if (pass > 0 ? refined > 0 : (near > 0 ? refined + joined > 0 : is_many(joined)))
     return true;
   for (const auto &cell : triangulation.active_cell_iterators())
     {

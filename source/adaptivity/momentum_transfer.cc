@@ -33,10 +33,7 @@ MomentumTransfer<dim>::MomentumTransfer(ParallelTriangulation<dim> &triangulatio
 template <int dim>
 const std::vector<double> &MomentumTransfer<dim>::mass_of(const unsigned int cell)
 {
-  unsigned int b = 0;
-  while (!dynamics.blocks[b]->contains(cell))
-    ++b;
-  dynamics.blocks[b]->cell_mass(cell, mass);
+  dynamics.blocks[block_of(dynamics, cell)]->cell_mass(cell, mass);
   return mass;
 }
 

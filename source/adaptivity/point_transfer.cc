@@ -40,18 +40,17 @@ PointTransfer<dim>::PointTransfer(ParallelTriangulation<dim> &triangulation, Dyn
   const auto &cells = dynamics.discretization.cells();
   old.resize(triangulation.n_active_cells());
   for (unsigned int cell = 0; cell < cells.size(); ++cell)
-    for (unsigned int b = 0; b < rules.size(); ++b)
-      if (dynamics.blocks[b]->contains(cell))
-        {
-          OldCell &here = old[cells[cell]->active_cell_index()];
-          here.block    = b;
-          here.record.resize(rules[b].layout.size(dim));
-          if (here.record.empty())
-            continue;
-          dynamics.blocks[b]->pack(state.blocks[b], cell, here.record.data());
-          here.mean  = rules[b].means(here.record.data());
-          here.moved = fingerprint(dynamics.discretization, state.displacement, cell).first;
-        }
+    {
+      const unsigned int b    = block_of(dynamics, cell);
+      OldCell           &here = old[cells[cell]->active_cell_index()];
+      here.block              = b;
+      here.record.resize(rules[b].layout.size(dim));
+      if (here.record.empty())
+        continue;
+      dynamics.blocks[b]->pack(state.blocks[b], cell, here.record.data());
+      here.mean  = rules[b].means(here.record.data());
+      here.moved = fingerprint(dynamics.discretization, state.displacement, cell).first;
+    }
   for (BlockState &record : state.blocks)
     {
       sums.push_back(std::move(record.points));

@@ -1,3 +1,4 @@
+#include <arenite/adaptivity/cell_transport.h>
 #include <arenite/adaptivity/saved_cells.h>
 #include <arenite/base/errors.h>
 
@@ -62,16 +63,6 @@ private:
   const unsigned int *nodes;
   const unsigned int  n_nodes, n_owned;
 };
-
-/// Block of a cell.
-template <int dim>
-unsigned int block_of(const Dynamics<dim> &dynamics, const unsigned int cell)
-{
-  unsigned int b = 0;
-  while (!dynamics.blocks[b]->contains(cell))
-    ++b;
-  return b;
-}
 
 /// Numbers of a cell but for its positions, which are read before there is a Dynamics.
 template <int dim>

@@ -28,10 +28,14 @@ void Simulation<dim>::exchange_state(StateArchive &archive)
   scene.time_step.exchange(archive);
   scene.adaptor.exchange(archive);
   archive.sum(step_power);
-  for (double *value :
-       {&cell_steps, &local_cell_steps, &known_energy, &initial_mass, &output_seconds, &adaptation_seconds,
-        &earlier_seconds, &record.mass_error, &record.momentum_error, &record.dof_steps})
+  for (double *value : {&cell_steps, &local_cell_steps, &known_energy, &initial_mass, &output_seconds,
+                        &adaptation_seconds, &record.mass_error, &record.momentum_error, &record.dof_steps})
     archive.common(*value);
+  double in_the_loop =
+    archive.loads() ? 0. : earlier_seconds + core_seconds(begin); // with output, which is counted alone
+  archive.common(in_the_loop);
+  if (archive.loads())
+    earlier_seconds = in_the_loop;
   archive.common(n_adaptations);
   archive.common(step_of_adaptation);
   archive.common(warned_of_step);
@@ -53,10 +57,7 @@ void Simulation<dim>::write_checkpoint(const OutputDirectory &directory)
   const auto         start = Clock::now();
   const unsigned int rank  = Utilities::MPI::this_mpi_process(communicator);
   StateArchive       collected(communicator);
-  const double       known = earlier_seconds;
-  earlier_seconds += core_seconds(begin) - output_seconds;
   exchange_state(collected);
-  earlier_seconds = known;
   exchange_output(collected);
   const auto write_cells = SavedCells<dim>::writer(*dynamics, state, scene.time_step.ratio);
 

@@ -210,8 +210,8 @@ void Simulation<dim>::describe() const
     text << " + up to " << scene.adaptor.max_passes();
   text << ", " << ranks << (ranks == 1 ? " process" : " processes") << '\n'
        << "Unknowns   " << unknowns() << ", " << scene.element.type << " of degree " << scene.element.degree << '\n';
-  if (const std::string parts = describe_partition(discretization, cost_of_cells); ranks > 1)
-    text << "Processes  " << parts << '\n';
+  if (ranks > 1)
+    text << "Processes  " << describe_partition(discretization, cost_of_cells) << '\n';
   for (unsigned int b = 0; b < scene.blocks.size(); ++b)
     {
       const LinearElastic &m = scene.blocks[b].material;
@@ -380,9 +380,8 @@ bool Simulation<dim>::run(const OutputDirectory &directory)
   if (local_cell_steps < 0.99 * cell_steps)
     log << "Levels     with a step of their own " << 100. * local_cell_steps / cell_steps
         << " % of the updates of cells would be left\n";
-  if (const std::string parts = describe_partition(discretization, cost_of_cells);
-      n_adaptations > 0 && Utilities::MPI::n_mpi_processes(communicator) > 1)
-    log << "Processes  " << parts << '\n';
+  if (n_adaptations > 0 && Utilities::MPI::n_mpi_processes(communicator) > 1)
+    log << "Processes  " << describe_partition(discretization, cost_of_cells) << '\n';
   return true;
 }
 

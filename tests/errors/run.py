@@ -11,46 +11,14 @@ Comment lines of the scene say what must happen:
 
 Whatever the mistake, the message has at most 10 lines and no stack trace, and comes within 60 s.
 """
-import contextlib, os, re, shlex, subprocess, sys, tempfile
+import re, shlex, subprocess, sys, tempfile
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from runs import UNFRIENDLY, command, conclude, directives, disk  # noqa: E402
 
 MOST_LINES = 10
 SECONDS = 60
-UNFRIENDLY = re.compile(r"stack ?trace|backtrace|terminate called|what\(\):|core dumped|An error occurred in line"
-                        r"|MPI_ABORT|Segmentation fault|Assertion", re.IGNORECASE)
-
-
-def command(arguments, ranks):
-    """The arguments, under mpirun for more than one rank."""
-    mpirun = [os.environ.get("ARENITE_MPIRUN", "mpirun"), "--quiet", "-n", str(ranks)] if ranks > 1 else []
-    return mpirun + [str(a) for a in arguments]
-
-
-def directives(scene):
-    """All '# NAME: value' lines of the scene: name -> list of values."""
-    found = {}
-    for line in Path(scene).read_text(errors="replace").splitlines():
-        match = re.match(r"^\s*#\s*([A-Z]{4,}):\s*(.*?)\s*$", line)
-        if match:
-            found.setdefault(match[1], []).append(match[2])
-    return found
-
-
-@contextlib.contextmanager
-def disk(folder, size):
-    """A disk of the wanted size inside of the folder, or the folder itself."""
-    if not size:
-        yield folder
-        return
-    place = Path(folder) / "disk"
-    place.mkdir()
-    if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size[0]}", "tmpfs", place], stderr=subprocess.DEVNULL).returncode:
-        print("skipped: no small disk can be mounted here")
-        sys.exit(77)
-    try:
-        yield place
-    finally:
-        subprocess.run(["umount", "--lazy", place])
 
 
 def problems(arenite, scene):
@@ -92,6 +60,4 @@ def problems(arenite, scene):
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    found = problems(sys.argv[1], sys.argv[2])
-    print("".join(f"FAILED: {p}\n" for p in found) or "passed\n", end="")
-    sys.exit(bool(found))
+    conclude(problems(sys.argv[1], sys.argv[2]))

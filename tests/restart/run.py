@@ -11,20 +11,11 @@ on each number of ranks of the scene. On as many ranks as before all tables and 
 byte, and so must what run.json says of values and energies; on others they may differ by the number given, relative to the largest value of
 the same unit.
 """
-import importlib.util, json, shlex, shutil, subprocess, sys, tempfile
+import json, shutil, subprocess, sys, tempfile
 from pathlib import Path
 
-
-def load(name, file):
-    specification = importlib.util.spec_from_file_location(name, Path(__file__).resolve().parents[1] / file)
-    sys.modules[name] = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(sys.modules[name])
-    return sys.modules[name]
-
-
-load("run", "errors/run.py")  # which scenes/run.py imports under this name
-scenes = load("scenes", "scenes/run.py")
-command, directives, difference, table = scenes.command, scenes.directives, scenes.difference, scenes.table
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from runs import command, conclude, difference, directives, extra_arguments, table  # noqa: E402
 
 OF_RUN = ["cells", "dofs", "steps", "time", "energy_error", "mass_error", "momentum_error", "dissipation", "artificial_dissipation",
           "hourglass_energy", "errors", "values"]
@@ -109,12 +100,11 @@ def main(arenite, scene):
     steps, tolerance, *writers = wanted["RESTART"][0].split()
     ranks = [int(r) for r in wanted.get("RANKS", ["1"])[0].split()]
     written = int(writers[0]) if writers else ranks[0]
-    arguments = [a.replace("{folder}", str(scene.parent)) for line in wanted.get("ARGS", []) for a in shlex.split(line)]
     found = []
     with tempfile.TemporaryDirectory(prefix="arenite-") as folder:
         folder = Path(folder)
         whole = folder / "whole"
-        arguments = [arenite, "run", scene, "--set", f"Output/Checkpoint steps={steps}"] + arguments
+        arguments = [arenite, "run", scene, "--set", f"Output/Checkpoint steps={steps}"] + extra_arguments(wanted, scene)
         execute(arguments + ["--output", whole], written, folder)
         checkpoints = sorted(whole.glob("checkpoint-*"))
         if len(checkpoints) != 2:
@@ -137,6 +127,4 @@ def main(arenite, scene):
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    found = main(sys.argv[1], sys.argv[2])
-    print("".join(f"FAILED: {p}\n" for p in found) or "passed\n", end="")
-    sys.exit(bool(found))
+    conclude(main(sys.argv[1], sys.argv[2]))

@@ -17,19 +17,11 @@ CHECK and SAME know: run (the contents of run.json), errors (run["errors"]), log
 "name"), rows("file.csv"), out (the output directory), screen (the standard output) and the functions of math. All measured
 values are printed.
 """
-import csv, json, math, os, re, shlex, subprocess, sys, tempfile
+import json, math, re, subprocess, sys, tempfile
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "errors"))
-from run import command, directives  # noqa: E402  (tests/errors/run.py)
-
-
-def table(file):
-    """Column name -> list of numbers."""
-    with open(file, newline="") as stream:
-        lines = [[cell.strip() for cell in line] for line in csv.reader(stream) if line and not line[0].startswith("#")]
-    numbers = [[float(cell) for cell in line] for line in lines[1:]]
-    return {name: [line[i] for line in numbers] for i, name in enumerate(lines[0])}
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from runs import command, conclude, difference, directives, extra_arguments, table  # noqa: E402
 
 
 def names(out, screen):
@@ -61,24 +53,6 @@ def measured(expression, values):
         return expression
 
 
-def difference(a, b):
-    """Relative difference of two values or tables, with the place where it is largest."""
-    if isinstance(a, dict):
-        if a.keys() != b.keys():
-            return math.inf, "different columns"
-        worst = (0., "")
-        for name in a:
-            if len(a[name]) != len(b[name]):
-                return math.inf, f"{len(a[name])} and {len(b[name])} rows"
-            size = max((abs(x) for x in a[name]), default=0.)
-            gap = max((abs(x - y) for x, y in zip(a[name], b[name])), default=0.)
-            worst = max(worst, (gap / size if size > 0 else (math.inf if gap > 0 else 0.), name))
-        return worst
-    if isinstance(a, (int, float)) and isinstance(b, (int, float)):
-        return (abs(a - b) / max(abs(a), abs(b)) if a != b else 0.), f"{a!r} and {b!r}"
-    return (0. if a == b else math.inf), f"{a!r} and {b!r}"
-
-
 def main(arenite, scene):
     arenite, scene = Path(arenite).resolve(), Path(scene).resolve()
     wanted = directives(scene)
@@ -94,8 +68,7 @@ def main(arenite, scene):
             out = Path(folder) / f"output-{i}"
             subcommand = wanted.get("COMMAND", ["run"])[0]
             result = out / "result.csv" if subcommand == "material" else out
-            arguments = [subcommand, scene] + ["--output", result] * (subcommand != "check") + [
-                a.replace("{folder}", str(scene.parent)) for line in wanted.get("ARGS", []) for a in shlex.split(line)]
+            arguments = [subcommand, scene] + ["--output", result] * (subcommand != "check") + extra_arguments(wanted, scene)
             done = subprocess.run(command([arenite] + arguments, ranks), cwd=folder, stdin=subprocess.DEVNULL,
                                   capture_output=True, text=True, errors="replace")
             print(f"--- {ranks} rank{'s' * (ranks > 1)}")
@@ -129,6 +102,4 @@ def main(arenite, scene):
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    found = main(sys.argv[1], sys.argv[2])
-    print("".join(f"FAILED: {p}\n" for p in found) or "passed\n", end="")
-    sys.exit(bool(found))
+    conclude(main(sys.argv[1], sys.argv[2]))

@@ -2,6 +2,7 @@
 
 #include <arenite/mechanics/discretization.h>
 #include <arenite/mesh/parallel_triangulation.h>
+#include <arenite/time/dynamics.h>
 
 #include <deal.II/grid/cell_id.h>
 
@@ -19,6 +20,16 @@ std::vector<unsigned int> index_of_active_cells(const Discretization<dim> &discr
   for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
     index[discretization.cells()[cell]->active_cell_index()] = cell;
   return index;
+}
+
+/// Position in Dynamics::blocks of the block that a cell of Discretization::cells() belongs to.
+template <int dim>
+unsigned int block_of(const Dynamics<dim> &dynamics, const unsigned int cell)
+{
+  unsigned int b = 0;
+  while (!dynamics.blocks[b]->contains(cell))
+    ++b;
+  return b;
 }
 
 /// Numbers of cells on their way to the next mesh, wherever the cells go:
