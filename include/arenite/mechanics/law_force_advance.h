@@ -21,6 +21,16 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
   if constexpr (Element::mean_dilatation)
     take_mean_volumes(operators, motion);
 
+  // viscous hourglass forces heat like the bulk viscosity: with their work lost a blast of gas would fall behind
+  Number hourglass = Number(0.), hourglass_heat = Number(0.); // J, J/kg
+  if constexpr (Element::has_hourglass_control)
+    if (viscous_hourglass)
+      {
+        hourglass =
+          advance_hourglass(batch, operators, u, H, h, step, Number(law->density()) / motion[0].J, dt_last, record);
+        hourglass_heat = hourglass / (Number(law->density()) * operators.weight[0]);
+      }
+
   // kinematics, viscosity
   Number strain[n_points][6], density_old[n_points], density[n_points], heat[n_points], stored_old[n_points],
     dissipated[n_points], viscous_work[n_points], size[n_points]; // |A|^2
@@ -62,7 +72,7 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
       store<Number>(q_new, &points.bulk_viscosity[at]);
       viscous_work[q] =
         Number(-0.5) * volume_strain * (finite ? Number(q_old * J_old + q_new * J) : Number(q_old + q_new));
-      heat[q]       = viscous_work[q] * Number(1. / rho_0);
+      heat[q]       = viscous_work[q] * Number(1. / rho_0) + hourglass_heat;
       stored_old[q] = load<Number>(&points.stored[at]);
       if (finite)
         {
@@ -119,9 +129,9 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
   inverse_step = Arenite::max<Number>(inverse_step, Number(largest_rate * Number(1. / largest_volume_change)));
   store<Number>(inverse_step, &points.inverse_step[batch * W]);
   store<Number>(loss / volume * Number(dt_last > 0. ? 1. / dt_last : 0.), &points.dissipation[batch * W]);
-  Number hourglass = Number(0.);
   if constexpr (Element::has_hourglass_control)
-    hourglass = advance_hourglass(batch, operators, u, H, h, step, density[0], dt_last, record);
+    if (!viscous_hourglass) // the stiffness form follows the stress that the law gives
+      hourglass = advance_hourglass(batch, operators, u, H, h, step, density[0], dt_last, record);
   (void)u;
   for (int l = 0; l < batches.active[batch]; ++l)
     {
@@ -146,9 +156,15 @@ void LawForce<Element, W>::hourglass_forces(const unsigned int batch, const Oper
   operators.patterns(u, H, q);
   operators.patterns(step.u, step.H, dq);
   const Number coefficient = Number(element.hourglass_coefficient) * density;
-  const Number scale =
-    viscous_hourglass ? coefficient * c * operators.pattern_viscosity() * Number(dt_last > 0. ? 1. / dt_last : 0.)
-                      : coefficient * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, h, record.points);
+  Number       scale       = Number(0.);
+  if (viscous_hourglass)
+    {
+      Number N[dim][dim]; // of the present cell: an expanded one has larger faces
+      Shape::turned_areas(H[0], h[0], n_hoop, finite, N);
+      scale = coefficient * c * operators.pattern_viscosity(N) * Number(dt_last > 0. ? 1. / dt_last : 0.);
+    }
+  else
+    scale = coefficient * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, h, record.points);
   for (int i = 0; i < dim; ++i)
     for (int a = 0; a < Element::n_patterns; ++a)
       force[i][a] = scale * (viscous_hourglass ? dq[i][a] : q[i][a]);

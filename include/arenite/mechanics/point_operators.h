@@ -297,11 +297,22 @@ struct PointOperators<OnePointElement<dim, n_hoop>, V>
         }
   }
 
-  /// Stiffness of a pattern per P-wave modulus, and viscosity per impedance, for a coefficient of 1 (Flanagan & Belytschko).
+  /// Stiffness of a pattern per P-wave modulus for a coefficient of 1 (Flanagan & Belytschko).
   ARENITE_INLINE V pattern_stiffness() const { return V(s * s) * squared_gradients() / weight[0]; }
-  ARENITE_INLINE V pattern_viscosity() const
+
+  /// Viscosity of a pattern per impedance for a coefficient of 1, on the shape whose areas are @p N times those of the reference.
+  ARENITE_INLINE V pattern_viscosity(const V (&N)[dim][dim]) const
   {
-    return V(16. * s * s) * square_root(V(squared_gradients() * V(1. / (4. * dim))));
+    V sum = V(0.);
+    for (int k = 0; k < dim; ++k)
+      for (int i = 0; i < dim; ++i)
+        {
+          V area = N[i][0] * g[k][0];
+          for (int j = 1; j < dim; ++j)
+            area += N[i][j] * g[k][j];
+          sum += area * area;
+        }
+    return V(16. * s * s) * square_root(V(sum * V(1. / (4. * dim))));
   }
 
   /// @p Q: forces on the patterns; ignored in one dimension.

@@ -41,6 +41,25 @@ struct PresentShape
         }
   }
 
+  /// N = J F^-T, which turns areas of the reference shape into present ones, dA = N dA_0, with the @p n_hoop directions around the
+  /// axis or centre, whose displacement gradient is @p h; I at small strain.
+  static ARENITE_INLINE void turned_areas(const V (&H)[dim][dim], const V &h, const int n_hoop, const bool finite,
+                                          V (&N)[dim][dim])
+  {
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        N[i][j] = V(i == j ? 1. : 0.);
+    if (!finite)
+      return;
+    V F[dim][dim];
+    deformation(H, F);
+    cofactors(F, N);
+    for (int k = 0; k < n_hoop; ++k)
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          N[i][j] = N[i][j] * (V(1.) + h);
+  }
+
   static ARENITE_INLINE V square_norm(const V (&a)[dim][dim])
   {
     V sum = V(0.);
