@@ -65,8 +65,9 @@ std::string describe_blocks(const Dynamics<dim> &dynamics, const State<dim> &sta
         text << "Hourglass  " << names[b] << ": " << factor * hourglass << " J, "
              << 100. * hourglass / (stored + law + viscous + hourglass) << " % of the block's energy; most "
              << worst_cell(dynamics.discretization, own)
-             << (hourglass > 0.1 * (stored + law + viscous + hourglass)
-                   ? ". Too much: patterns rule the motion, refine or take 'Type = hexahedron'"
+             << (std::abs(hourglass) > 0.1 * std::abs(stored + law + viscous + hourglass)
+                   ? ". Too much: patterns rule the motion, refine, or take 'Hourglass control = viscous' or 'Type = "
+                     "hexahedron'"
                    : "")
              << '\n';
     }

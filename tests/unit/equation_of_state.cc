@@ -437,6 +437,31 @@ BOOST_AUTO_TEST_CASE(three_phases)
   BOOST_TEST(mentions(torn.prepare(), "negative pressure"));
 }
 
+// Soils that cannot be torn at all, from dry to saturated, one unit of the last digit away from rest: rounding leaves no lane without an
+// answer, and the answer is as small as the strain.
+BOOST_AUTO_TEST_CASE(three_phases_next_to_rest)
+{
+  for (int part = 0; part <= 50; ++part)
+    for (const double air_pressure : {1e5, 101e3, 101325.})
+      {
+        ThreePhaseMixture eos = mixture();
+        eos.fraction[0]       = .4 * (1. - part / 50.);
+        eos.fraction[1]       = .4 - eos.fraction[0];
+        eos.density           = 1000. * eos.fraction[1] + 2650. * .60;
+        eos.air_pressure      = air_pressure;
+        eos.modulus_of[0]     = 1.4 * air_pressure;
+        eos.tension_limit     = 0.;
+        BOOST_TEST_REQUIRE(eos.prepare() == "");
+        for (const double strain : {1e-16, 2e-16, 1e-15, 1e-12})
+          {
+            Point<ThreePhaseMixture> point(eos);
+            point.move_to(eos.density * (1. + strain));
+            BOOST_TEST(std::abs(point.pressure) <= 2. * point.response.bulk_modulus * (strain + 4e-16),
+                       "part " << part << ", strain " << strain << ": " << point.pressure);
+          }
+      }
+}
+
 // The porous sand has its sound speed c_e at rest, crushes along the given curve, and a shock of any strength obeys the energy jump;
 // above the end of crushing it is the solid with the energy of the shock.
 BOOST_AUTO_TEST_CASE(porous)

@@ -76,7 +76,8 @@ struct ThreePhaseMixture
   {
     // (i) V(p) = V in z = ln(p + p_a + T'), between the tension limit and ten times the valid range
     const Number target = Number(density) / change.density, shift(log_shift);
-    const Number lower(std::log(log_shift - tension_limit)), upper(std::log(log_shift + 10. * largest_pressure));
+    // a little below the limit: rounded, V of the limit itself may be smaller than the wanted one
+    const Number lower(std::log(log_shift - tension_limit) - 1e-9), upper(std::log(log_shift + 10. * largest_pressure));
     const Number open_volume(volume_at_limit);
     const auto   open   = target >= open_volume;
     const Number within = Arenite::select<Number>(open, Number(1.), target); // open lanes solve for rest instead
