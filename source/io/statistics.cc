@@ -52,9 +52,9 @@ void Statistics::declare_parameters(Parameters &parameters)
 void Statistics::finalize(const Parameters &) {}
 
 void Statistics::open(const OutputDirectory &directory, Log &new_log, const double new_start, const double new_end,
-                      const double new_symmetry_factor, const std::string &per_extent, const FileStart file_start)
+                      const double new_symmetry_factor, const std::string &new_per_extent, const FileStart file_start)
 {
-  unit            = " [J" + per_extent + "]";
+  per_extent      = new_per_extent;
   log             = &new_log;
   communicator    = directory.communicator;
   active          = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
@@ -87,7 +87,7 @@ void Statistics::exchange(StateArchive &archive)
 void Statistics::write_header(const EnergyReport &report)
 {
   file << "t [s],step,dt [s],cells,dofs";
-  const auto energy = [&](const std::string &what) { file << ',' << what << " (full body)" << unit; };
+  const auto energy = [&](const std::string &what) { file << ',' << what << " (full body) [J" << per_extent << ']'; };
   energy("kinetic");
   energy("strain");
   energy("hourglass");
@@ -96,6 +96,9 @@ void Statistics::write_header(const EnergyReport &report)
       energy(what);
   for (const auto &account : report.work)
     energy("work of " + account.first);
+  for (const LoadValue &value : report.values)
+    file << ',' << value.name << (value.of_sector ? " (full body)" : "") << " [" << value.unit
+         << (value.of_sector ? per_extent : "") << ']';
   energy("initial");
   energy("step changes");
   energy("adaptation");
@@ -130,6 +133,8 @@ void Statistics::add(const EnergyReport &report, const StepInfo &info)
           energy(value);
       for (const auto &account : report.work)
         energy(account.second);
+      for (const LoadValue &value : report.values)
+        file << ',' << to_text(value.value * (value.of_sector ? symmetry_factor : 1.));
       energy(report.initial);
       energy(report.step_changes);
       energy(report.adaptation);

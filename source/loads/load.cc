@@ -1,4 +1,5 @@
 #include <arenite/loads/absorbing.h>
+#include <arenite/loads/gas_pressure.h>
 #include <arenite/loads/load.h>
 #include <arenite/loads/nodal_force.h>
 
@@ -11,6 +12,8 @@ Registry<Load<dim>> make_loads()
 {
   Registry<Load<dim>> registry("load");
   registry.template add<Pressure<dim>>("pressure", "Pressure history on named boundaries.");
+  registry.template add<GasPressure<dim>>("gas pressure",
+                                          "Gas that fills a cavity, by the volume that the wall leaves it.");
   registry.template add<Gravity<dim>>("gravity", "Acceleration of the whole body.");
   registry.template add<AbsorbingBoundary<dim>>("absorbing boundary",
                                                 "Dashpots, or the exact condition for spherical waves.");

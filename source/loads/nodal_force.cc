@@ -24,23 +24,21 @@ NodalForces<dim> assemble(const Discretization<dim> &discretization, VectorType 
 }
 
 template <int dim>
-void Pressure<dim>::declare_parameters(Parameters &parameters)
+void UniformPressure<dim>::declare_parameters(Parameters &parameters)
 {
   path = parameters.current_path();
   parameters.add_list("Boundary", boundary_names, "Names of the boundaries that carry the pressure.");
   parameters.require("Boundary");
-  history.declare_parameters(parameters, "Pa");
 }
 
 template <int dim>
-void Pressure<dim>::finalize(const Parameters &parameters, const Geometry<dim> &geometry)
+void UniformPressure<dim>::finalize(const Parameters &parameters, const Geometry<dim> &geometry)
 {
   ids = geometry.boundary_ids(parameters, path + "/Boundary", boundary_names);
-  history.finalize();
 }
 
 template <int dim>
-void Pressure<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &, const MaterialOfBlock &)
+void UniformPressure<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &, const MaterialOfBlock &)
 {
   if (follows_surface)
     {
@@ -63,24 +61,47 @@ void Pressure<dim>::reinit(const Discretization<dim> &discretization, const Noda
 }
 
 template <int dim>
+void UniformPressure<dim>::find_areas(const State<dim> &state)
+{
+  if (!follows_surface)
+    return;
+  const VectorType &now = faces.areas(state.displacement);
+  for (auto &[node, value] : area)
+    for (unsigned int c = 0; c < dim; ++c)
+      value[c] = now.local_element(dim * node + c);
+}
+
+template <int dim>
+std::string UniformPressure<dim>::description() const
+{
+  return "on " + join(boundary_names) + (follows_surface ? ", on the deformed surface" : "");
+}
+
+template <int dim>
+void Pressure<dim>::declare_parameters(Parameters &parameters)
+{
+  UniformPressure<dim>::declare_parameters(parameters);
+  history.declare_parameters(parameters, "Pa");
+}
+
+template <int dim>
+void Pressure<dim>::finalize(const Parameters &parameters, const Geometry<dim> &geometry)
+{
+  UniformPressure<dim>::finalize(parameters, geometry);
+  history.finalize();
+}
+
+template <int dim>
 void Pressure<dim>::add(VectorType &force, const State<dim> &state)
 {
-  if (follows_surface)
-    {
-      const VectorType &now = faces.areas(state.displacement);
-      for (auto &[node, value] : area)
-        for (unsigned int c = 0; c < dim; ++c)
-          value[c] = now.local_element(dim * node + c);
-    }
-  factor = -history.value(state.time);
-  add_forces(area, factor, force);
+  this->find_areas(state);
+  this->push(force, history.value(state.time));
 }
 
 template <int dim>
 std::string Pressure<dim>::description() const
 {
-  return "pressure '" + history.name() + "' on " + join(boundary_names) +
-         (follows_surface ? ", on the deformed surface" : "");
+  return "pressure '" + history.name() + "' " + UniformPressure<dim>::description();
 }
 
 template <int dim>
@@ -128,6 +149,9 @@ std::string Gravity<dim>::description() const
   return text.str();
 }
 
+template class UniformPressure<1>;
+template class UniformPressure<2>;
+template class UniformPressure<3>;
 template class Pressure<1>;
 template class Pressure<2>;
 template class Pressure<3>;

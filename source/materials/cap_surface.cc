@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace Arenite
@@ -61,5 +62,38 @@ double CapSurface::junction(const double X) const
     return X - smallest_position;
   Iterations iterations;
   return junction<double>(X, 0., X, iterations);
+}
+
+double CapSurface::position_through(const double I1, const double j) const
+{
+  if (I1 <= initial_position && j == 0.)
+    return initial_position;
+  if (j >= failure(I1).value)
+    return std::max(I1, initial_position);
+  const auto inside = [&](const double X) { return -yield_function<double>(I1, j, cap(junction(X))); };
+  if (inside(initial_position) >= 0.)
+    return initial_position;
+  double upper = std::max(I1, initial_position);
+  while (inside(upper) < 0.)
+    upper *= 2.;
+  // without a slope: the search is bisection
+  const double    none = std::numeric_limits<double>::quiet_NaN();
+  const auto      f    = [&](const double X) { return ValueAndSlope<double>{inside(X), none}; };
+  Bracket<double> bracket{initial_position, upper};
+  bracket.relative_tolerance = 1e-14;
+  Iterations iterations;
+  return root_in_bracket<double>(f, bracket, upper, true, iterations);
+}
+
+std::string CapSurface::complaint_about(const double I1, const double j) const
+{
+  const double strength = failure(std::max(I1, 0.)).value;
+  if (I1 >= 0. && j <= strength)
+    return "";
+  std::ostringstream reason;
+  reason << "the stress at rest, I1 = " << I1 << " Pa with sqrt(J2) = " << j
+         << " Pa, lies beyond the failure surface, sqrt(J2) = " << strength
+         << " Pa. Take an earth pressure coefficient nearer to 1.";
+  return reason.str();
 }
 } // namespace Arenite

@@ -27,6 +27,8 @@ void Simulation<dim>::exchange_state(StateArchive &archive)
   dynamics->balance.exchange(archive);
   scene.time_step.exchange(archive);
   scene.adaptor.exchange(archive);
+  for (const auto &load : dynamics->loads)
+    load->exchange(archive);
   archive.sum(step_power);
   for (double *value : {&cell_steps, &local_cell_steps, &known_energy, &initial_mass, &output_seconds,
                         &adaptation_seconds, &record.mass_error, &record.momentum_error, &record.dof_steps})

@@ -14,7 +14,7 @@ namespace
 constexpr const char *one_of_each = R"(
 set End time = 1
 set Blocks = solid
-set Loads = pressure, gravity, absorbing boundary, sponge
+set Loads = pressure, gas pressure, gravity, absorbing boundary, sponge
 set Receivers = points, line, plane
 subsection Materials
   subsection solid
@@ -28,8 +28,14 @@ subsection Loads
     set Type = pressure
     set Boundary = cavity
   end
+  subsection gas pressure
+    set Type = gas pressure
+    set Boundary = cavity
+    set Initial pressure = 1e6
+  end
   subsection gravity
     set Type = gravity
+    set Acceleration = 0, 0, -9.81
   end
   subsection absorbing boundary
     set Type = absorbing boundary
@@ -43,6 +49,7 @@ subsection Constraints
   set Prescribed velocities = outer
 end
 subsection Initial conditions
+  set Stress = geostatic
   set Moving regions = moving region
   subsection moving region
     set Velocity = 0; 0; 0
@@ -104,6 +111,10 @@ std::string complete_manual()
   for (const std::string &name : geometries<2>().names())
     if (const auto &known = geometries<3>().names(); std::find(known.begin(), known.end(), name) == known.end())
       text += "\nIn two dimensions only: " + name + ".\n" + entries_of_mesh<2>(name);
+
+  text += "\n# Gas in a cavity\n" +
+          entries_of(*loads<3>().make("gas pressure"), "Gas = detonation products", "Loads",
+                     Parameters::from_text("subsection Loads\nset Gas = detonation products\nend\n", "manual"));
 
   text += "\n# Laws\n\nEntries of a block, `subsection Materials / <block>`, beside those above. Scenes take `linear "
           "elastic`, "

@@ -80,7 +80,13 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
     parameters.add_choice("State", initial_state, {"rest", "exact solution"}, "Displacement and velocity at t = 0.");
     initial_velocity.declare_parameters(parameters);
     initial_energy.declare_parameters(parameters);
+    stress_at_rest.declare_parameters(parameters);
   }
+  for (Block &block : blocks)
+    {
+      const auto section = parameters.section("Materials"), subsection = parameters.section(block.name);
+      stress_at_rest.declare_block(parameters, block.past);
+    }
   time_step.declare_parameters(parameters);
   adaptor.declare_parameters(parameters);
   receivers.declare_parameters(parameters);
@@ -123,6 +129,12 @@ void Scene<dim>::finalize(Parameters &parameters)
       if (kinematics.finite_strain())
         load->use_finite_strain();
     }
+  std::map<unsigned int, GeostaticPast> past;
+  for (const Block &block : blocks)
+    past[block.material_id] = block.past;
+  stress_at_rest.finalize(parameters, *mesh.geometry, loads, past);
+  if (stress_at_rest.is_wanted())
+    loads.push_back(std::make_unique<HeldStress<dim>>(stress_at_rest, element.type == "one-point hexahedron"));
   constraints.finalize(parameters, *mesh.geometry);
   initial_velocity.finalize(parameters, block_names);
   initial_energy.finalize(parameters);

@@ -2,6 +2,7 @@
 #include <arenite/base/values.h>
 #include <arenite/io/error_norms.h>
 #include <arenite/simulation/block_summary.h>
+#include <arenite/simulation/initial_stress.h>
 #include <arenite/simulation/resolution.h>
 #include <arenite/simulation/simulation.h>
 
@@ -182,6 +183,13 @@ void Simulation<dim>::set_initial_state()
   scene.constraints.project(state.half_velocity);
   zero_at_hanging_nodes(discretization, state.half_velocity);
   make_consistent(discretization, state.displacement); // the energy of the start needs ghosts and hanging nodes
+  if (scene.stress_at_rest.is_wanted())
+    {
+      std::vector<std::string> names;
+      for (const Block &block : scene.blocks)
+        names.push_back(block.name);
+      unbalanced = begin_under_stress(scene.stress_at_rest, *dynamics, state, names);
+    }
 }
 
 /// Speed of the fastest node of all processes [m/s].
@@ -225,6 +233,8 @@ void Simulation<dim>::describe() const
   for (const auto &load : dynamics->loads)
     text << "Load       " << load->name << ": " << load->description() << '\n';
   text << scene.initial_velocity.description();
+  if (unbalanced)
+    text << "Rest       largest force on a node at the start: " << *unbalanced << " of its weight\n";
   text << "Mass       " << initial_mass * scene.mesh.geometry->symmetry_factor() << " kg" << per_extent(scene.symmetry)
        << " of the full body; boundaries: " << join(scene.mesh.geometry->boundary_names()) << '\n';
   text << "Step       stable up to " << scene.time_step.limit() << " s (cell at " << scene.time_step.limiting_place()

@@ -184,6 +184,12 @@ EnergyReport Dynamics<dim>::report(const State<dim> &state, const double dt)
   EnergyReport      result =
     balance.report(state.time, kinetic_energy(state, 0.5 * (state.dt_last + dt)), stored, discretization.communicator);
   result.stores_points = stores_points();
+  for (const auto &load : loads)
+    for (LoadValue &value : load->values())
+      {
+        value.name = load->name + ": " + value.name;
+        result.values.push_back(value);
+      }
   return result;
 }
 

@@ -53,6 +53,44 @@ BOOST_AUTO_TEST_CASE(surely_inside)
   BOOST_TEST(sure > 0.8 * inside);
 }
 
+// The cap through a past stress: on it, or the initial one where that holds the state already; from there a larger cap is elastic.
+BOOST_AUTO_TEST_CASE(cap_through_a_state)
+{
+  CapSurface s;
+  s.alpha            = 64200.;
+  s.gamma            = 5890.;
+  s.beta             = 3.4283e-7;
+  s.theta            = 0.18257;
+  s.axis_ratio       = 5.;
+  s.hardening_rate   = 1e-8;
+  s.hardening_limit  = 0.2;
+  s.initial_position = 1e6;
+  s.tension_limit    = 5000.;
+  BOOST_REQUIRE(s.finalize() == "");
+  std::mt19937_64 random(5);
+  const auto      uniform = [&]() { return (random() >> 11) * 0x1p-53; };
+  unsigned int    held    = 0;
+  for (unsigned int i = 0; i < 1000; ++i)
+    {
+      const double I1 = std::pow(10., 3. + 5. * uniform()), j = 0.99 * uniform() * s.failure(I1).value;
+      const double X = s.position_through(I1, j), f = s.yield_function(I1, j, s.cap(s.junction(X)));
+      BOOST_TEST(X >= s.initial_position);
+      if (X == s.initial_position)
+        {
+          BOOST_TEST(f <= 0.);
+          ++held;
+        }
+      else // f = b times a relative size; X is found to 1e-14, and the junction behind it to 1e-15
+        BOOST_TEST(std::abs(f) < 1e-12 * X);
+    }
+  BOOST_TEST(held > 100u);
+  BOOST_TEST(held < 900u);
+  BOOST_TEST(s.position_through(3e6, 0.) == 3e6, boost::test_tools::tolerance(1e-12)); // on the axis the cap ends there
+  BOOST_TEST(s.complaint_about(3e6, 1e4) == "");
+  BOOST_TEST(s.complaint_about(3e6, 1e7) != "");
+  BOOST_TEST(s.complaint_about(-1., 0.) != "");
+}
+
 // Roots of any scale, with slopes or without, lane by lane; lanes that do not take part are left alone.
 BOOST_AUTO_TEST_CASE(root_in_a_bracket)
 {

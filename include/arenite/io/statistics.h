@@ -71,7 +71,7 @@ private:
   MPI_Comm      communicator = MPI_COMM_NULL;
   bool          active       = false; ///< this process writes
   double        start = 0., end = 0., symmetry_factor = 1.;
-  std::string   name, problem, unit;
+  std::string   name, problem, per_extent;
   std::ofstream file;
 
   EnergyReport  last;

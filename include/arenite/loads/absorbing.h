@@ -35,9 +35,10 @@ public:
   void        finish_step(const VectorType &half_velocity, double dt) override;
   bool        admits(Reduction &, const Parameters &) const override;
   std::string description() const override;
-  const DampingBlocks<dim> *damping() const override { return &dashpots; }
-  const VectorType         *nodal_state() const override { return spherical() ? &memory : nullptr; }
-  void                      set_nodal_state(const VectorType &) override;
+  const std::vector<std::string> &boundaries() const { return boundary_names; }
+  const DampingBlocks<dim>       *damping() const override { return &dashpots; }
+  const VectorType               *nodal_state() const override { return spherical() ? &memory : nullptr; }
+  void                            set_nodal_state(const VectorType &) override;
 
 private:
   bool spherical() const { return condition == "spherical"; }

@@ -15,6 +15,8 @@
 
 namespace Arenite
 {
+class StateArchive;
+
 template <int dim>
 using DampingBlocks = std::vector<NodeValue<dealii::SymmetricTensor<2, dim>>>;
 
@@ -23,6 +25,14 @@ struct NodalMass
 {
   VectorType partial;   ///< from the cells of this process, hanging nodes with their own share
   VectorType condensed; ///< what the update uses: hanging nodes gave to their masters, ghosts to their owners
+};
+
+/// What a load says about itself in the table of energies.
+struct LoadValue
+{
+  std::string name, unit; ///< "volume", "m^3"
+  double      value;
+  bool        of_sector; ///< a sum over the modelled sector, not a number of its own like a pressure
 };
 
 /// Forces from outside, on owned nodes. A load knows its nodes after reinit() and touches nothing else in the step.
@@ -56,6 +66,12 @@ public:
   /// Own state that must survive a change of the mesh: one scalar per node (zero elsewhere).
   virtual const VectorType *nodal_state() const { return nullptr; }
   virtual void              set_nodal_state(const VectorType &) {}
+
+  /// Own state besides, for a checkpoint.
+  virtual void exchange(StateArchive &) {}
+
+  /// Values at the last add(), the same on all processes.
+  virtual std::vector<LoadValue> values() const { return {}; }
 
   /// Boundaries that this load pushes on; adaptive meshes start refined there.
   virtual std::vector<dealii::types::boundary_id> loaded_boundaries() const { return {}; }

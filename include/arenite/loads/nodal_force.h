@@ -31,33 +31,57 @@ double power_of(const NodalForces<dim> &list, const double factor, const VectorT
   return factor * sum;
 }
 
-/// Pressure p(t) on named boundaries: f_i = -p(t) integral of N_i n dA, on the undeformed surface or, with finite strain, on
-/// the deformed one of each time.
+/// One pressure on named boundaries: f_i = -p integral of N_i n dA, on the undeformed surface or, with finite strain, on the deformed
+/// one of each time. What p is a subclass says in add():
+///
+///   find_areas(state);
+///   push(force, pressure);
 template <int dim>
-class Pressure : public Load<dim>
+class UniformPressure : public Load<dim>
 {
 public:
   void        declare_parameters(Parameters &) override;
   void        finalize(const Parameters &, const Geometry<dim> &) override;
   void        use_finite_strain() override { follows_surface = true; }
   void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
-  void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override { return power_of(area, factor, half_velocity); }
   bool        admits(Reduction &form, const Parameters &) const override { return form.keeps(ids); }
   std::string description() const override;
   std::vector<dealii::types::boundary_id> loaded_boundaries() const override { return ids; }
-  const HistoryChoice                    &pressure_history() const { return history; }
   const std::vector<std::string>         &boundaries() const { return boundary_names; }
+
+protected:
+  void find_areas(const State<dim> &);
+  void push(VectorType &force, const double pressure)
+  {
+    factor = -pressure;
+    add_forces(area, factor, force);
+  }
+
+  std::string      path;
+  bool             follows_surface = false;
+  NodalForces<dim> area; ///< integral of N_i n dA [m^2], n out of the body
 
 private:
   std::vector<std::string>                boundary_names;
   std::vector<dealii::types::boundary_id> ids;
-  HistoryChoice                           history;
-  std::string                             path;
-  bool                                    follows_surface = false;
-  DeformedFaces<dim>                      faces;       ///< if so
-  NodalForces<dim>                        area;        ///< integral of N_i n dA [m^2]
+  DeformedFaces<dim>                      faces;       ///< if it follows the surface
   double                                  factor = 0.; ///< -p(t_n)
+};
+
+/// Pressure p(t), a history.
+template <int dim>
+class Pressure : public UniformPressure<dim>
+{
+public:
+  void                 declare_parameters(Parameters &) override;
+  void                 finalize(const Parameters &, const Geometry<dim> &) override;
+  void                 add(VectorType &force, const State<dim> &) override;
+  std::string          description() const override;
+  const HistoryChoice &pressure_history() const { return history; }
+
+private:
+  HistoryChoice history;
 };
 
 /// Acceleration g of the whole body: f_i = m_i g.
@@ -72,6 +96,9 @@ public:
   double      power(const VectorType &half_velocity) const override { return power_of(weight, factor, half_velocity); }
   bool        admits(Reduction &, const Parameters &) const override;
   std::string description() const override;
+
+  /// At t = 0 [m/s^2].
+  dealii::Tensor<1, dim> at_rest() const { return history.value(0.) * acceleration; }
 
 private:
   std::string            path;

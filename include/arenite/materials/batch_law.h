@@ -59,6 +59,10 @@ public:
   virtual double viscosity_time() const = 0; ///< of a viscous stress in proportion to the stiffness [s]; 0: none
   virtual double relaxation_time_at_rest() const = 0; ///< of an overstress at rest [s]; 0: not known
 
+  /// Set the history of a point, in the order of history_names(), to one that goes with @p stress [Pa] without any strain; the largest past
+  /// stress was @p overconsolidation times as large. @return why the law cannot begin so, or nothing
+  virtual std::string begin_under(const SymTensor<double> &stress, double overconsolidation, double *history) const = 0;
+
   virtual std::vector<std::string>     history_names() const     = 0;
   virtual std::vector<double>          initial_history() const   = 0;
   virtual std::vector<DerivedConstant> derived_constants() const = 0;
@@ -129,6 +133,17 @@ struct HasRelaxationTime : std::false_type
 {};
 template <typename Law>
 struct HasRelaxationTime<Law, std::void_t<decltype(std::declval<const Law &>().relaxation_time_at_rest())>>
+  : std::true_type
+{};
+
+/// Laws may begin under a stress.
+template <typename Law, typename = void>
+struct BeginsUnderStress : std::false_type
+{};
+template <typename Law>
+struct BeginsUnderStress<
+  Law, std::void_t<decltype(std::declval<const Law &>().begin_under(
+         std::declval<const SymTensor<double> &>(), 1., std::declval<typename Law::template History<double> &>()))>>
   : std::true_type
 {};
 
@@ -213,6 +228,23 @@ public:
       return law.relaxation_time_at_rest();
     else
       return 0.;
+  }
+
+  std::string begin_under(const SymTensor<double> &stress, const double overconsolidation,
+                          double *values) const override
+  {
+    if constexpr (BeginsUnderStress<Law>::value)
+      {
+        typename Law::template History<double> history;
+        load_history<typename Law::template History<double>, double>(history, values);
+        const std::string reason = law.begin_under(stress, overconsolidation, history);
+        store_history<typename Law::template History<double>, double>(history, values);
+        return reason;
+      }
+    else
+      return (void)stress, (void)overconsolidation, (void)values,
+             std::string("the stress of the law '") + Law::name +
+               "' follows from its strain, it cannot begin under one.";
   }
 
   std::vector<std::string> history_names() const override

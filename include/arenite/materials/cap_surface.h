@@ -140,6 +140,12 @@ struct CapSurface : CapParameters
   /// xi of a cap that ends at X >= X0; Newton's method inside of a bracket, for a start or a transfer.
   double junction(double X) const;
 
+  /// X of the smallest cap that holds the state (I1, j), but not below X0; where j is beyond the failure surface, of one that ends at I1.
+  double position_through(double I1, double j) const;
+
+  /// Why a soil cannot be at rest with the state (I1, j), or nothing.
+  std::string complaint_about(double I1, double j) const;
+
   /// The same on lanes, inside of [low, high] with X(low) <= X <= X(high).
   template <typename Number>
   Number junction(const Number &X, const Number &low, const Number &high, Iterations &iterations) const

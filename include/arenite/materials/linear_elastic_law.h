@@ -42,6 +42,8 @@ struct LinearElasticLaw
   void after_transfer(SymTensor<Number> &, History<Number> &) const
   {}
 
+  std::string begin_under(const SymTensor<double> &, double, History<double> &) const { return ""; }
+
   template <typename F>
   void for_each_constant(F &&f) const
   {

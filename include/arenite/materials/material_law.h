@@ -78,6 +78,9 @@ struct NoHistory
 //     static constexpr int  tensor_history            = 0;         // may be left out: first of six entries that turn with the point
 //     double viscosity_time() const;                               // may be left out: stiffness-proportional viscosity [s]
 //     double relaxation_time_at_rest() const;                      // may be left out: of a small overstress [s]
+//     std::string begin_under(const SymTensor<double> &stress, double overconsolidation, History<double> &) const;
+//                                                                  // may be left out: whether the law can begin under a stress without
+//                                                                  // strain, with the history that goes with it; else the reason
 //   };
 //
 // A new law is complete with its line in law_types.h.

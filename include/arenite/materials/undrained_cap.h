@@ -87,6 +87,13 @@ struct UndrainedCap
     stress                = effective - spherical(p);
   }
 
+  /// The stress at rest is carried by the skeleton: above the water table.
+  std::string begin_under(const SymTensor<double> &stress, const double overconsolidation,
+                          History<double> &history) const
+  {
+    return skeleton.begin_under(stress, overconsolidation, history.skeleton);
+  }
+
   /// f(name, value, unit) for the log.
   template <typename F>
   void for_each_constant(F &&f) const

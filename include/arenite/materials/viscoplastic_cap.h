@@ -190,6 +190,15 @@ struct ViscoplasticCap
     stiffness.after_transfer(history.stiffness);
   }
 
+  /// The cap goes through the past stress if that lies beyond its initial position.
+  std::string begin_under(const SymTensor<double> &stress, const double overconsolidation,
+                          History<double> &history) const
+  {
+    const double I1 = -trace(stress), j = std::sqrt(second_invariant(deviator(stress)));
+    history.cap_junction = surface.junction(surface.position_through(overconsolidation * I1, overconsolidation * j));
+    return surface.complaint_about(I1, j);
+  }
+
   /// f(name, value, unit) for the log.
   template <typename F>
   void for_each_constant(F &&f) const

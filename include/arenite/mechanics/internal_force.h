@@ -2,6 +2,7 @@
 
 #include <arenite/base/number.h>
 #include <arenite/base/parameters.h>
+#include <arenite/base/tensor_tools.h>
 #include <arenite/materials/linear_elastic.h>
 #include <arenite/mechanics/state.h>
 
@@ -145,6 +146,14 @@ public:
                            const std::function<double(unsigned int cell)> & /*value*/) const
   {
     return false;
+  }
+
+  /// BatchLaw::begin_under() of the block's law.
+  virtual std::string begin_under(const SymTensor<double> & /*stress*/, double /*overconsolidation*/,
+                                  double * /*history*/) const
+  {
+    return "its stress follows from the displacement, it cannot begin under one. With 'Kinematics = finite strain' it "
+           "is stored.";
   }
 
   /// force += -integral of P : Grad N over the cells of @p part. Hanging entries receive forces like all others. What the block keeps is

@@ -124,6 +124,12 @@ public:
     packing.exchange<false>(record, batches.place(cell), values);
   }
 
+  std::string begin_under(const SymTensor<double> &stress, const double overconsolidation,
+                          double *history) const override
+  {
+    return law->begin_under(stress, overconsolidation, history);
+  }
+
   void restore(const State<dim> &state, BlockState &record, const std::vector<unsigned int> &changed) const override
   {
     PointData &points        = record.points;

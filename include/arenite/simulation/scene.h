@@ -6,7 +6,7 @@
 #include <arenite/io/statistics.h>
 #include <arenite/io/vtu_output.h>
 #include <arenite/loads/constraints.h>
-#include <arenite/loads/load.h>
+#include <arenite/loads/geostatic_stress.h>
 #include <arenite/materials/batch_law.h>
 #include <arenite/materials/elastic_constants.h>
 #include <arenite/mechanics/internal_force.h>
@@ -34,6 +34,7 @@ struct Block
   ElasticConstants          constants;
   std::unique_ptr<BatchLaw> law;      ///< null where the kernel does without
   LinearElastic             material; ///< elasticity at rest
+  GeostaticPast             past;     ///< where the soil begins under a stress
 };
 
 /// Everything that a .prm says, read and checked. Members in the order of the file's sections.
@@ -56,6 +57,7 @@ struct Scene
   std::string                               initial_state = "rest";
   InitialVelocity<dim>                      initial_velocity;
   InitialEnergy<dim>                        initial_energy;
+  GeostaticStress<dim>                      stress_at_rest;
   StableTimeStep<dim>                       time_step;
   MeshAdaptor<dim>                          adaptor;
   ReceiverSets<dim>                         receivers;

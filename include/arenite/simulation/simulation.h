@@ -82,6 +82,7 @@ private:
   State<dim>                     state;
   double                         initial_mass = 0., output_seconds = 0., adaptation_seconds = 0.;
   double                         step_power = 0., known_energy = 0.;
+  std::optional<double>          unbalanced; ///< force at rest over the weight of its node, under a geostatic stress
   unsigned int                   n_adaptations = 0, step_of_adaptation = 0;
   bool                           warned_of_step = false, warned_of_folding = false;
   CostOfCells                    cost_of_cells;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <arenite/loads/load.h>
 #include <arenite/mechanics/internal_force.h>
 
 #include <deal.II/base/mpi.h>
@@ -20,6 +21,7 @@ struct EnergyReport
   double initial       = 0.;                                       ///< kinetic + strain at the start
   std::vector<std::pair<std::string, double>> work; ///< by load and by prescribed motion, positive into the body
   double                                      step_changes = 0., adaptation = 0.;
+  std::vector<LoadValue>                      values; ///< of the loads, with their names
 
   /// Two independent ledgers: what loads gave must be what points and nodes hold.
   double imbalance() const;
