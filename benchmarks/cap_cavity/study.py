@@ -13,10 +13,6 @@ SOILS = ("dry", "wet", "saturated")
 LAYERS = study.choose((320,), quick=(80,))[0]
 SOIL = "Materials/soil"
 WATER = f"{SOIL}/Soil state/Saturation"
-# Slopes of peak velocity over distance, Swedish Civil Contingencies Agency, MSB B02-301 (2017), after TM 5-855-1
-EMPIRICAL = {"loose dry sand": 3.1, "dry sand": 2.75, "dense sand, wet clay": 2.5, "saturated sandy clay": 2.4, "saturated clay": 1.5}
-
-
 # Density [kg/m^3] and pressure [MPa] of a sand that begins at 1674 kg/m^3: Laine and Sandvik (2001)
 SAND = ((1739.5, 4.577), (1873.8, 14.98), (1997, 29.151), (2143.8, 59.175), (2250, 98.098), (2380, 179.443), (2485, 289.443), (2585, 450.198))
 tables = {}
@@ -151,16 +147,23 @@ def figures(cases):
         return
     drawing, axes = common.plt.subplots(figsize=(6.4, 4.8))
     colours = dict(zip(SOILS, ("tab:orange", "tab:green", "tab:blue")))
+    markers = dict(zip((1e6, 1e7, 1e8, 1e9, 1e10), "os^vD"))
     for (soil, peak), case in cases.items():
-        axes.loglog([r / A for r in RADII[1:]], case.v[1:], "os^vD"[round(math.log10(peak)) - 6] + "-", color=colours[soil], markersize=4,
-                    linewidth=1, label=f"{soil}, {peak / 1e6:g} MPa" if peak in (1e6, 1e8, 1e10) else None)
-    for n in sorted(set(EMPIRICAL.values())):
-        axes.loglog([5, 12], [600, 600 * (12 / 5) ** -n], "k--", linewidth=.8)
-        axes.text(12.2, 600 * (12 / 5) ** -n, f"{n:g}", fontsize=7, va="center")
-    axes.text(5, 800, "slopes of MSB B02-301", fontsize=7)
-    axes.set(xlabel="r/a", ylabel="largest velocity [m/s]", xticks=[1.5, 2, 3, 5, 10], xticklabels=["1.5", "2", "3", "5", "10"])
+        axes.loglog([r / A for r in RADII[1:]], case.v[1:], markers[peak] + "-", color=colours[soil], markersize=4, linewidth=1)
+    for soil in SOILS:
+        axes.plot([], [], "-", color=colours[soil], label=soil)
+    for peak, marker in markers.items():
+        axes.plot([], [], "k" + marker, markersize=4, label=f"{peak / 1e6:g} MPa")
+    # Swedish Civil Contingencies Agency, MSB B02-301 (2017), after TM 5-855-1: saturated clay, saturated sandy clay, wet clay, dry and loose dry sand
+    for n, label in ((1.5, "1.5"), (2.4, ""), (2.5, "2.4, 2.5"), (2.75, "2.75"), (3.1, "3.1")):
+        axes.loglog([5, 10], [600, 600 * 2 ** -n], "k--", linewidth=.8)
+        axes.text(10.2, 600 * 2 ** -n, label, fontsize=7, va="center")
+    axes.text(5, 700, "slopes of MSB B02-301", fontsize=7)
+    axes.set(xlabel="r/a", ylabel="largest velocity [m/s]")
+    axes.set_xticks([1.5, 2, 3, 5, 10], ["1.5", "2", "3", "5", "10"])
+    axes.set_xticks([], minor=True)
     axes.grid(True, which="major", linewidth=.3)
-    axes.legend(fontsize=7, loc="lower left")
+    axes.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.01, 1.))
     drawing.savefig(study.folder / "attenuation.svg", bbox_inches="tight", metadata={"Date": None})
     common.plt.close(drawing)
 
