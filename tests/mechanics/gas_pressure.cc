@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(energy_goes_into_the_body, *label("parallel"))
     for (unsigned int k = 1; k <= steps; ++k)
       end = shell.step(0.5 / steps);
     const double lost = value(start, "gas energy") - value(end, "gas energy"), given = end.work.front().second;
-    BOOST_TEST(value(end, "gas volume") > 1.1 * value(start, "gas volume")); // far from linear
+    BOOST_TEST(value(end, "gas volume") > 1.04 * value(start, "gas volume")); // by 4 % (products, the smaller pressure) to 20 %
     BOOST_TEST(given > 0.01 * value(start, "gas energy"));
     return given / lost - 1.;
   };
@@ -141,8 +141,10 @@ BOOST_AUTO_TEST_CASE(energy_goes_into_the_body, *label("parallel"))
           const double coarse = miss(d, symmetry, degree, gas, finite, 100),
                        fine   = miss(d, symmetry, degree, gas, finite, 200);
           BOOST_TEST_MESSAGE("gas, " << name(symmetry) << " degree " << degree << ": " << coarse << ' ' << fine);
-          BOOST_TEST(std::abs(coarse) < 1e-3);
-          BOOST_TEST(coarse / fine == 4., tolerance(0.1));
+          BOOST_TEST(std::abs(coarse) < 1e-5);
+          // on deformed faces of degree 2 the rule is not exact for the volume: 1e-7 stays whatever the step
+          if (degree == 1 || !finite)
+            BOOST_TEST(coarse / fine == 4., tolerance(0.1));
         }
   };
   check(std::integral_constant<int, 1>(), Symmetry::spherical, 1);

@@ -11,8 +11,8 @@ namespace Arenite
 ///
 /// with the surface integral over the wall of all processes; n points out of the body, n = 3, in plane strain 2, for plane waves 1. The
 /// other sides of the gas, if there are any, are planes through the centre c, which (x - c) . n = 0 leaves out: the symmetry planes of a
-/// sector. At small strain V = V_0 - integral of u . n dA on the undeformed wall. Both are exact integrals of the nodal areas that the forces are made of: what the
-/// gas loses the body gains, but for the error of the steps in time.
+/// sector. At small strain V = V_0 - integral of u . n dA on the undeformed wall. Both are made of the nodal areas that the forces are made of: what the
+/// gas loses the body gains, but for the error of the steps in time and, on deformed faces of a higher degree than 1, of the rule.
 template <int dim>
 class GasPressure : public UniformPressure<dim>
 {
