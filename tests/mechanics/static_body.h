@@ -68,6 +68,23 @@ struct StaticBody
     return Utilities::MPI::max(worst, MPI_COMM_WORLD);
   }
 
+  /// Root of the mean square of that distance over the volume, relative to that of the displacement.
+  double mean_error(const std::function<Tensor<1, dim>(const Point<dim> &)> &exact) const
+  {
+    std::vector<double> sums(2, 0.);
+    for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
+      {
+        const Tensor<1, dim> wanted = exact(discretization.position(node));
+        Tensor<1, dim>       u;
+        for (unsigned int c = 0; c < dim; ++c)
+          u[c] = state.displacement.local_element(dim * node + c);
+        sums[0] += dynamics->mass.local_element(node) * (u - wanted).norm_square();
+        sums[1] += dynamics->mass.local_element(node) * wanted.norm_square();
+      }
+    Utilities::MPI::sum(sums, MPI_COMM_WORLD, sums);
+    return std::sqrt(sums[0] / sums[1]);
+  }
+
   Parameters                     parameters;
   Scene<dim>                     scene;
   ParallelTriangulation<dim>     triangulation;
