@@ -171,8 +171,6 @@ void Scene<dim>::refuse_motion(const Parameters &parameters) const
     parameters.refuse("Initial conditions/Moving regions", reason);
   if (initial_state != "rest")
     parameters.refuse("Initial conditions/State", reason);
-  if (adaptor.active())
-    parameters.refuse("Adaptivity", reason);
 }
 
 template struct Scene<1>;
