@@ -33,7 +33,7 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
     "Analysis", analysis, {"dynamic", "static"},
     "'static' goes through equilibria, in the steps of 'Statics' instead of 'Time stepping': nothing "
     "is accelerated, the histories of loads and prescribed velocities are followed as slowly as "
-    "one likes.");
+    "one likes. The mesh stays that of the start.");
 
   block_names = parameters.peek_list("Blocks");
   load_names  = parameters.peek_list("Loads");

@@ -20,7 +20,11 @@ struct StaticBody
     , discretization((scene.mesh.geometry->create(triangulation), triangulation), scene.element.degree, scene.symmetry)
   {
     triangulation.refine_global(scene.mesh.refinement);
-    scene.adaptor.initial_refinement(triangulation, discretization, {});
+    std::vector<types::boundary_id> loaded;
+    for (const auto &load : scene.loads)
+      for (const auto id : load->loaded_boundaries())
+        loaded.push_back(id);
+    scene.adaptor.initial_refinement(triangulation, discretization, loaded);
     std::vector<std::unique_ptr<InternalForce<dim>>> blocks;
     for (Block &block : scene.blocks)
       if (const auto id = scene.blocks.size() == 1 ? numbers::invalid_material_id : block.material_id; block.law)

@@ -81,7 +81,7 @@ double lame_ratio(const std::string &symmetry, const ElementChoice &element, con
 
 // Degree 1 converges with the second order of the mesh size; the ratio of errors on two meshes shows it to a tenth. The elements of higher degree
 // with the order that isotropic mapping and lumped load leave at nodes, p + 1 or more.
-BOOST_AUTO_TEST_CASE(hollow_sphere_converges_to_lame)
+BOOST_AUTO_TEST_CASE(hollow_sphere_converges_to_lame, *label("parallel"))
 {
   for (const unsigned int degree : {0, 1})
     {
@@ -97,9 +97,9 @@ BOOST_AUTO_TEST_CASE(hollow_sphere_converges_to_lame)
     }
 }
 
-// The preconditioner sees the mesh: iterations to 1e-11 of the forces over three refinements, 8 to 64 times as many unknowns. The bound leaves a
-// fifth to what was measured, and growth with the number of cells along a side (8 times) or its logarithm would not pass.
-BOOST_AUTO_TEST_CASE(linear_iterations_do_not_grow_with_the_mesh)
+// The preconditioner sees the mesh: iterations to 1e-11 of the forces over three refinements, 8 to 64 times as many unknowns. Measured: 1 (the
+// coarsest grid solves alone), 15, 16 in three dimensions, 1, 15, 19, 22 in two; the side has 4 and 8 times as many cells then.
+BOOST_AUTO_TEST_CASE(linear_iterations_do_not_grow_with_the_mesh, *label("parallel"))
 {
   const auto iterations = [](const auto dimension, const std::string &symmetry, const ElementChoice &choice,
                              const unsigned int refinement) {
@@ -116,9 +116,9 @@ BOOST_AUTO_TEST_CASE(linear_iterations_do_not_grow_with_the_mesh)
   mean.volumetric_strain                    = "mean dilatation";
   for (const ElementChoice &choice : {element(0), element(1), mean})
     for (const unsigned int refinement : {1, 2, 3})
-      BOOST_TEST(iterations(three, "none", choice, refinement) <= 30u);
+      BOOST_TEST(iterations(three, "none", choice, refinement) <= 20u);
   for (const unsigned int refinement : {3, 4, 5, 6})
-    BOOST_TEST(iterations(two, "axisymmetric", element(1), refinement) <= 30u);
+    BOOST_TEST(iterations(two, "axisymmetric", element(1), refinement) <= 25u);
 }
 
 // Self-weight over uniform layers: with consistent weights the linear element is exact at nodes for u_z = - rho g/M (H z - z^2/2), whatever the
@@ -416,13 +416,13 @@ BOOST_AUTO_TEST_CASE(specimens_follow_the_material_point)
 {
   for (const std::string &element : {"hexahedron", "one-point hexahedron"})
     {
-      BOOST_TEST(distance_from_material_point(true, element) < 1e-7);
-      BOOST_TEST(distance_from_material_point(false, element) < 1e-7);
+      BOOST_TEST(distance_from_material_point(true, element) < 1e-9);
+      BOOST_TEST(distance_from_material_point(false, element) < 1e-9);
     }
 }
 
 // What is in equilibrium stays at rest in the explicit code: velocities that 200 steps build up from what is left out of balance, against those
-// of a wave with the strains that there are. 1e-9 of the forces is left, and the wave runs through the 7 cells along a radius 10 times.
+// of a wave with the strains that there are. 1e-9 of the forces is left out of balance; the bound is ten times that, measured up to 3.2e-9.
 BOOST_AUTO_TEST_CASE(explicit_code_stays_at_rest, *label("parallel"))
 {
   const std::string text = R"(
@@ -475,11 +475,14 @@ end
   for (const std::string &kinematics : {"small strain", "finite strain"})
     for (const std::string &element : {"hexahedron", "one-point hexahedron"})
       {
-        StaticBody<3> body(text, {"Kinematics=" + kinematics, "Element/Type=" + element});
-        const auto    effort = body.solve();
-        const double  cp = std::sqrt((1.2e9 + 4. / 3. * 5.5e8) / 2000.), strain = 2e5 / 1.2e9;
-        const double  dt      = 0.5 * body.dynamics->point_limits(body.state).stable_step;
-        double        fastest = 0.;
+        // finer cells around the cavity: hanging nodes
+        StaticBody<3> body(text, {"Kinematics=" + kinematics, "Element/Type=" + element, "Adaptivity/Levels=1",
+                                  "Adaptivity/Buffer layers=1", "Adaptivity/Initially refined boundaries=cavity"});
+        BOOST_TEST(Utilities::MPI::sum(body.discretization.hanging.size(), MPI_COMM_WORLD) > 0u);
+        const auto   effort = body.solve();
+        const double cp = std::sqrt((1.2e9 + 4. / 3. * 5.5e8) / 2000.), strain = 2e5 / 1.2e9;
+        const double dt      = 0.5 * body.dynamics->point_limits(body.state).stable_step;
+        double       fastest = 0.;
         for (unsigned int step = 0; step < 200; ++step)
           {
             body.dynamics->compute_force(body.state);
@@ -489,6 +492,6 @@ end
           }
         BOOST_TEST_MESSAGE(kinematics << ", " << element << ": " << fastest / (cp * strain) << " of c eps after "
                                       << effort.newton << " Newton, " << effort.linear << " linear iterations");
-        BOOST_TEST(fastest < 1e-7 * cp * strain);
+        BOOST_TEST(fastest < 1e-8 * cp * strain);
       }
 }
