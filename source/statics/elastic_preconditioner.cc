@@ -179,7 +179,10 @@ void ElasticPreconditioner<dim>::build_multigrid(const Discretization<dim> &disc
   parameters.set("ML output", 0);
   parameters.set("PDE equations", dim);
   parameters.set("aggregation: type", "Uncoupled");
-  parameters.set("aggregation: threshold", 0.02);
+  // A hollow sphere in the meridian plane, 512 to 131 072 cells: 15, 17, 18, 20, 21 iterations to 1e-12. With V cycles they are 15 to 28, with a
+  // threshold of 0.02 and V cycles 15 to 34. Elements of high degree do better with one: 53 against 68 at degree 3.
+  parameters.set("prec type", "MGW");
+  parameters.set("aggregation: threshold", discretization.degree() > 1 ? 0.02 : 0.);
   parameters.set("smoother: type", "Chebyshev");
   parameters.set("smoother: sweeps", 3);
   parameters.set("smoother: pre or post", "both");

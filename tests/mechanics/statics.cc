@@ -97,8 +97,8 @@ BOOST_AUTO_TEST_CASE(hollow_sphere_converges_to_lame, *label("parallel"))
     }
 }
 
-// The preconditioner sees the mesh: iterations to 1e-11 of the forces over three refinements, 8 to 64 times as many unknowns. Measured: 1 (the
-// coarsest grid solves alone), 15, 16 in three dimensions, 1, 15, 19, 22 in two; the side has 4 and 8 times as many cells then.
+// The preconditioner sees the mesh: iterations to 1e-12 of the forces (a tenth of the tolerance) over three refinements. Measured are 1 (the coarsest grid solves alone), 15, 16 in
+// three dimensions and 1, 15, 17, 18 in two, while a side has 8 times as many cells in the end; the bounds leave two for round-off and ranks.
 BOOST_AUTO_TEST_CASE(linear_iterations_do_not_grow_with_the_mesh, *label("parallel"))
 {
   const auto iterations = [](const auto dimension, const std::string &symmetry, const ElementChoice &choice,
@@ -116,9 +116,9 @@ BOOST_AUTO_TEST_CASE(linear_iterations_do_not_grow_with_the_mesh, *label("parall
   mean.volumetric_strain                    = "mean dilatation";
   for (const ElementChoice &choice : {element(0), element(1), mean})
     for (const unsigned int refinement : {1, 2, 3})
-      BOOST_TEST(iterations(three, "none", choice, refinement) <= 20u);
+      BOOST_TEST(iterations(three, "none", choice, refinement) <= 18u);
   for (const unsigned int refinement : {3, 4, 5, 6})
-    BOOST_TEST(iterations(two, "axisymmetric", element(1), refinement) <= 25u);
+    BOOST_TEST(iterations(two, "axisymmetric", element(1), refinement) <= 20u);
 }
 
 // Self-weight over uniform layers: with consistent weights the linear element is exact at nodes for u_z = - rho g/M (H z - z^2/2), whatever the
