@@ -51,13 +51,19 @@ void RunRecord::write(const OutputDirectory &directory) const
       json["mdofs_per_core_second"]   = mdofs_per_core_second();
       json["peak_memory_mb"]          = peak_memory_mb;
       json["total_memory_mb"]         = total_memory_mb;
-      json["energy_error"]            = energy_error;
-      json["mass_error"]              = mass_error;
-      json["momentum_error"]          = momentum_error;
-      json["dissipation"]             = dissipation;
-      json["artificial_dissipation"]  = artificial_dissipation;
-      json["hourglass_energy"]        = hourglass_energy;
-      json["errors"]                  = nlohmann::ordered_json::object();
+      if (is_static)
+        {
+          json["newton_iterations"] = newton_iterations;
+          json["linear_iterations"] = linear_iterations;
+        }
+      else
+        json["energy_error"] = energy_error;
+      json["mass_error"]             = mass_error;
+      json["momentum_error"]         = momentum_error;
+      json["dissipation"]            = dissipation;
+      json["artificial_dissipation"] = artificial_dissipation;
+      json["hourglass_energy"]       = hourglass_energy;
+      json["errors"]                 = nlohmann::ordered_json::object();
       for (const auto &error : errors)
         json["errors"][error.first] = error.second;
       json["values"] = nlohmann::ordered_json::object();
@@ -85,9 +91,17 @@ void RunRecord::print_summary(Log &log, const OutputDirectory &directory) const
   log.line();
   for (const auto &error : errors)
     row(error.first, "%.4e", error.second);
-  row("energy error", "%.1e", energy_error);
-  row("mass error", "%.1e", mass_error);
-  row("momentum error", "%.1e", momentum_error);
+  if (is_static)
+    {
+      row("Newton iterations", "%.0f", static_cast<double>(newton_iterations));
+      row("linear iterations", "%.0f", static_cast<double>(linear_iterations));
+    }
+  else
+    {
+      row("energy error", "%.1e", energy_error);
+      row("mass error", "%.1e", mass_error);
+      row("momentum error", "%.1e", momentum_error);
+    }
   row("steps", "%.0f", static_cast<double>(steps));
   row("unknowns", "%.0f", static_cast<double>(dofs));
   row("set-up [core s]", "%.2f", setup_core_seconds);

@@ -1,5 +1,7 @@
 #include <arenite/loads/constraints.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -156,6 +158,23 @@ const SymmetricTensor<2, dim> *projector(const std::vector<NodeValue<SymmetricTe
   return position != list.end() && position->node == node ? &position->value : nullptr;
 }
 
+/// Of a velocity over a time, panel by panel between the times where a derivative jumps.
+double integral(const TimeHistory &velocity, const double from, const double to)
+{
+  std::vector<double> ends{from};
+  for (const double t : velocity.break_points())
+    if (t > from && t < to)
+      ends.push_back(t);
+  ends.push_back(to);
+  const QGauss<1> rule(8);
+  double          sum = 0.;
+  for (std::size_t panel = 0; panel + 1 < ends.size(); ++panel)
+    for (unsigned int q = 0; q < rule.size(); ++q)
+      sum += (ends[panel + 1] - ends[panel]) * rule.weight(q) *
+             velocity.value(ends[panel] + rule.point(q)[0] * (ends[panel + 1] - ends[panel]));
+  return sum;
+}
+
 /// Projector onto the directions that no face normal in @p normals (with trace 1) constrains.
 template <int dim>
 SymmetricTensor<2, dim> free_directions(const SymmetricTensor<2, dim> &normals)
@@ -297,6 +316,53 @@ void Constraints<dim>::project(VectorType &vector) const
       for (unsigned int c = 0; c < dim; ++c)
         vector.local_element(dim * node + c) = value[c];
     }
+}
+
+template <int dim>
+std::vector<NodeValue<SymmetricTensor<2, dim>>> Constraints<dim>::freedom() const
+{
+  std::map<unsigned int, SymmetricTensor<2, dim>> free;
+  for (const auto &[node, P] : projectors)
+    free[node] = P;
+  for (const PrescribedNode &entry : prescribed_nodes)
+    {
+      auto                &P = free.emplace(entry.node, unit_symmetric_tensor<dim>()).first->second;
+      const Tensor<1, dim> d = P * entry.direction;
+      if (d.norm() > 1e-8) // not held yet
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = i; j < dim; ++j)
+            P[i][j] -= d[i] * d[j] / d.norm_square();
+    }
+  for (const auto &[entry, x] : exact_nodes)
+    free[entry.node] = SymmetricTensor<2, dim>();
+  Projectors result;
+  for (const auto &[node, P] : free)
+    result.push_back({node, P});
+  return result;
+}
+
+template <int dim>
+void Constraints<dim>::prescribe(VectorType &change, const VectorType &displacement, const double from,
+                                 const double to) const
+{
+  std::vector<double> distance;
+  for (const auto &boundary : prescribed)
+    distance.push_back(integral(*boundary->history.get(), from, to));
+  for (const PrescribedNode &entry : prescribed_nodes)
+    {
+      double along = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        along += entry.direction[c] * change.local_element(dim * entry.node + c);
+      for (unsigned int c = 0; c < dim; ++c)
+        change.local_element(dim * entry.node + c) += (distance[entry.boundary] - along) * entry.direction[c];
+    }
+  for (const auto &[entry, x] : exact_nodes)
+    {
+      const Tensor<1, dim> u = exact_solution->displacement(x, to);
+      for (unsigned int c = 0; c < dim; ++c)
+        change.local_element(dim * entry.node + c) = u[c] - displacement.local_element(dim * entry.node + c);
+    }
+  project(change);
 }
 
 template <int dim>

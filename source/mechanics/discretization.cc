@@ -37,6 +37,14 @@ void HangingNodes::add(const unsigned int node, const std::vector<Master> &maste
   start.push_back(static_cast<unsigned int>(master.size()));
 }
 
+std::vector<HangingNodes::Master> HangingNodes::masters(const unsigned int line) const
+{
+  std::vector<Master> result;
+  for (unsigned int k = start[line]; k < start[line + 1]; ++k)
+    result.push_back({master[k], weight[k], first_weights()[k]});
+  return result;
+}
+
 bool HangingNodes::depends_on_ghosts(const unsigned int node) const
 {
   // lines are added in ascending order within the local and the ghost-dependent part

@@ -29,6 +29,11 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
                         "coordinate r, second z), in one 'plane wave' (uniaxial strain) or 'spherical' (r).");
   kinematics.declare_parameters(parameters);
   parameters.add_quantity("End time", end_time, "s", positive, "The run starts at 0 and ends here.");
+  parameters.add_choice(
+    "Analysis", analysis, {"dynamic", "static"},
+    "'static' goes through equilibria, in the steps of 'Statics' instead of 'Time stepping': nothing "
+    "is accelerated, the histories of loads and prescribed velocities are followed as slowly as "
+    "one likes. The mesh stays that of the start.");
 
   block_names = parameters.peek_list("Blocks");
   load_names  = parameters.peek_list("Loads");
@@ -88,6 +93,7 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
       stress_at_rest.declare_block(parameters, block.past);
     }
   time_step.declare_parameters(parameters);
+  statics.declare_parameters(parameters);
   adaptor.declare_parameters(parameters);
   receivers.declare_parameters(parameters);
   pictures.declare_parameters(parameters);
@@ -144,6 +150,9 @@ void Scene<dim>::finalize(Parameters &parameters)
   pictures.finalize(parameters);
   statistics.finalize(parameters);
 
+  if (is_static())
+    refuse_motion(parameters);
+
   std::shared_ptr<const TimeHistory> pressure;
   for (const auto &load : loads)
     if (const auto *candidate = dynamic_cast<const Pressure<dim> *>(load.get()); candidate && !pressure)
@@ -161,6 +170,19 @@ void Scene<dim>::finalize(Parameters &parameters)
                       "boundaries'");
   if (exact_solution && exact_solution->has_body_force())
     loads.push_back(std::make_unique<BodyForce<dim>>(exact_solution));
+}
+
+/// What has no meaning where nothing moves.
+template <int dim>
+void Scene<dim>::refuse_motion(const Parameters &parameters) const
+{
+  const std::string reason = "has no meaning with 'Analysis = static'";
+  if (element.type == "one-point hexahedron" && element.hourglass_control == "viscous")
+    parameters.refuse("Element/Hourglass control", reason + ": take 'stiffness'");
+  if (!initial_velocity.at_rest())
+    parameters.refuse("Initial conditions/Moving regions", reason);
+  if (initial_state != "rest")
+    parameters.refuse("Initial conditions/State", reason);
 }
 
 template struct Scene<1>;

@@ -237,8 +237,12 @@ void Simulation<dim>::describe() const
     text << "Rest       largest force on a node at the start: " << *unbalanced << " of its weight\n";
   text << "Mass       " << initial_mass * scene.mesh.geometry->symmetry_factor() << " kg" << per_extent(scene.symmetry)
        << " of the full body; boundaries: " << join(scene.mesh.geometry->boundary_names()) << '\n';
-  text << "Step       stable up to " << scene.time_step.limit() << " s (cell at " << scene.time_step.limiting_place()
-       << "), about " << expected_steps() << " steps of " << scene.end_time / expected_steps() << " s";
+  if (scene.is_static())
+    text << "Statics    " << scene.statics.load_steps << (scene.statics.load_steps == 1 ? " load step" : " load steps")
+         << " to " << scene.end_time << " s, each to " << scene.statics.tolerance << " of the forces";
+  else
+    text << "Step       stable up to " << scene.time_step.limit() << " s (cell at " << scene.time_step.limiting_place()
+         << "), about " << expected_steps() << " steps of " << scene.end_time / expected_steps() << " s";
   log << text.str() << '\n';
 }
 
@@ -268,6 +272,8 @@ void Simulation<dim>::reinit_receivers()
 template <int dim>
 double Simulation<dim>::expected_steps() const
 {
+  if (scene.is_static())
+    return scene.statics.load_steps;
   return std::ceil(scene.end_time / scene.time_step.usual());
 }
 
@@ -289,8 +295,13 @@ void Simulation<dim>::describe_cost()
   record.measure_memory(communicator);
   std::ostringstream text;
   text.precision(3);
-  text << "Cost       about " << 1.1 * steps * fastest << " core-seconds for the time loop on this mesh, "
-       << std::lround(record.total_memory_mb) << " MB of memory";
+  if (scene.is_static()) // how many iterations equilibria take nobody knows before
+    text << "Cost       " << fastest
+         << " core-seconds for an iteration on this mesh; ten to some hundred are usual in each of "
+         << scene.statics.load_steps << " load steps";
+  else
+    text << "Cost       about " << 1.1 * steps * fastest << " core-seconds for the time loop on this mesh, "
+         << std::lround(record.total_memory_mb) << " MB of memory";
   if (scene.adaptor.active())
     {
       const double finest = triangulation.n_global_coarse_cells() *
@@ -302,6 +313,8 @@ void Simulation<dim>::describe_cost()
     text << "\nOutput     " << scene.pictures.expected_pictures(scene.end_time) << " pictures of at most "
          << 1e-6 * scene.pictures.expected_bytes(discretization) << " MB each before compression";
   log.line(text.str());
+  if (scene.is_static())
+    return;
   double slowest = std::numeric_limits<double>::max();
   for (const Block &block : scene.blocks)
     slowest = std::min(slowest, block.material.s_wave_speed());
@@ -311,6 +324,8 @@ void Simulation<dim>::describe_cost()
 template <int dim>
 bool Simulation<dim>::run(const OutputDirectory &directory)
 {
+  if (scene.is_static())
+    return load_slowly(directory);
   const FileStart files = archive ? FileStart::resumed : FileStart::fresh;
   reinit_receivers();
   scene.receivers.open(directory.path(), 0., scene.end_time, scene.exact_solution.get(), files);
@@ -333,8 +348,7 @@ bool Simulation<dim>::run(const OutputDirectory &directory)
     }
   scene.checkpoints.start(directory, state.step);
 
-  const auto start = Clock::now();
-  begin            = start;
+  begin = Clock::now();
   bool is_complete;
   try
     {
@@ -347,16 +361,42 @@ bool Simulation<dim>::run(const OutputDirectory &directory)
       log.to_file(alarm.what());
       throw;
     }
-  output_seconds += scene.receivers.output_seconds() * Utilities::MPI::n_mpi_processes(communicator);
-  record.core_seconds        = earlier_seconds + core_seconds(start) - output_seconds;
-  record.output_core_seconds = output_seconds;
-  scene.receivers.finish(); // writes, and evaluates the exact solution: not part of the computation
-  record.errors = scene.receivers.errors();
-  record.values = scene.receivers.norms();
+  finish_receivers();
   scene.statistics.finish();
   if (!is_complete)
     return false;
+  record_run();
+  record.energy_error            = dynamics->balance.largest_error();
+  record.adaptation_core_seconds = adaptation_seconds;
+  if (n_adaptations > 0)
+    log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
+        << 100. * adaptation_seconds / record.core_seconds << " % of the run); the front met "
+        << scene.adaptor.coarse_cells_met() << " cells before they were refined\n";
+  note_levels();
+  if (local_cell_steps < 0.99 * cell_steps)
+    log << "Levels     with a step of their own " << 100. * local_cell_steps / cell_steps
+        << " % of the updates of cells would be left\n";
+  if (n_adaptations > 0 && Utilities::MPI::n_mpi_processes(communicator) > 1)
+    log << "Processes  " << describe_partition(discretization, cost_of_cells) << '\n';
+  return true;
+}
 
+/// The time of the computation ends here: receivers still write, and evaluate the exact solution.
+template <int dim>
+void Simulation<dim>::finish_receivers()
+{
+  output_seconds += scene.receivers.output_seconds() * Utilities::MPI::n_mpi_processes(communicator);
+  record.core_seconds        = earlier_seconds + core_seconds(begin) - output_seconds;
+  record.output_core_seconds = output_seconds;
+  scene.receivers.finish();
+  record.errors = scene.receivers.errors();
+  record.values = scene.receivers.norms();
+}
+
+/// What the run was, and how far it is from the exact solution.
+template <int dim>
+void Simulation<dim>::record_run()
+{
   record.dimension       = dim;
   record.symmetry        = name(scene.symmetry);
   record.element         = scene.element.type;
@@ -365,7 +405,6 @@ bool Simulation<dim>::run(const OutputDirectory &directory)
   record.dofs            = unknowns();
   record.steps           = state.step;
   record.time            = state.time;
-  record.energy_error    = dynamics->balance.largest_error();
   record.symmetry_factor = scene.mesh.geometry->symmetry_factor();
   if (scene.exact_solution && scene.exact_solution->is_field())
     {
@@ -381,18 +420,6 @@ bool Simulation<dim>::run(const OutputDirectory &directory)
     }
   record_dissipation();
   record_parts();
-  record.adaptation_core_seconds = adaptation_seconds;
-  if (n_adaptations > 0)
-    log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
-        << 100. * adaptation_seconds / record.core_seconds << " % of the run); the front met "
-        << scene.adaptor.coarse_cells_met() << " cells before they were refined\n";
-  note_levels();
-  if (local_cell_steps < 0.99 * cell_steps)
-    log << "Levels     with a step of their own " << 100. * local_cell_steps / cell_steps
-        << " % of the updates of cells would be left\n";
-  if (n_adaptations > 0 && Utilities::MPI::n_mpi_processes(communicator) > 1)
-    log << "Processes  " << describe_partition(discretization, cost_of_cells) << '\n';
-  return true;
 }
 
 /// What the points dissipated, for run.json and the log.

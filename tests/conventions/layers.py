@@ -14,9 +14,10 @@ MAY_INCLUDE = {
     "mechanics":    ["base", "materials", "mesh"],
     "loads":        ["base", "materials", "verification", "mesh", "mechanics"],
     "time":         ["base", "mechanics", "loads"],
+    "statics":      ["base", "mechanics", "loads", "time"],
     "adaptivity":   ["base", "materials", "mesh", "mechanics", "loads", "time"],
     "io":           ["base", "materials", "verification", "mesh", "mechanics", "loads", "time"],
-    "simulation":   ["base", "materials", "verification", "mesh", "mechanics", "loads", "time", "adaptivity", "io"],
+    "simulation":   ["base", "materials", "verification", "mesh", "mechanics", "loads", "time", "statics", "adaptivity", "io"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"](?:arenite/)?([a-z_]+)/([a-z_0-9]+\.h)[>"]')
 

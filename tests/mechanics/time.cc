@@ -98,9 +98,10 @@ public:
   BlockEnergy energy(const State<3> &s, const BlockState &b) const override { return block->energy(s, b); }
   void        add_mass(VectorType &m) const override { block->add_mass(m); }
   void        cell_mass(const unsigned int cell, std::vector<double> &m) const override { block->cell_mass(cell, m); }
-  bool        contains(const unsigned int cell) const override { return block->contains(cell); }
-  void        inverse_size_squared(dealii::Vector<double> &v) const override { block->inverse_size_squared(v); }
-  void        largest_eigenvalue(dealii::Vector<double> &v) const override { block->largest_eigenvalue(v); }
+  void cell_stiffness(const unsigned int cell, FullMatrix<double> &K) const override { block->cell_stiffness(cell, K); }
+  bool contains(const unsigned int cell) const override { return block->contains(cell); }
+  void inverse_size_squared(dealii::Vector<double> &v) const override { block->inverse_size_squared(v); }
+  void largest_eigenvalue(dealii::Vector<double> &v) const override { block->largest_eigenvalue(v); }
   const LinearElastic &material() const override { return block->material(); }
   std::string          description() const override { return block->description(); }
 

@@ -31,7 +31,10 @@ struct RunRecord
 
   double energy_error = 0., mass_error = 0., momentum_error = 0.;
   double dissipation = 0., artificial_dissipation = 0.,
-         hourglass_energy = 0.; ///< by laws; by bulk viscosity; full body [J]
+         hourglass_energy         = 0.;    ///< by laws; by bulk viscosity; full body [J]
+  bool          is_static         = false; ///< steps are those of a load; no energy balance
+  std::uint64_t newton_iterations = 0, linear_iterations = 0;
+
   /// "<receiver set>.<quantity>.E_t", "volume.<quantity>.E_x", "boundary.traction.E_inf" -> relative error
   std::map<std::string, double> errors;
   /// "<receiver set>.<quantity>.rms|peak": what runs without an exact solution are compared by

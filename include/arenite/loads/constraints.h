@@ -39,6 +39,14 @@ public:
   /// Project a velocity or displacement onto what the planes admit.
   void project(VectorType &) const;
 
+  /// At each owned node that is held in some direction, by planes or by a prescribed motion, the projector onto those in which it is free.
+  /// Ascending nodes.
+  std::vector<NodeValue<dealii::SymmetricTensor<2, dim>>> freedom() const;
+
+  /// Give the change of the displacement from one time to another its prescribed components: the integral of the velocity, or what is
+  /// missing from @p displacement to an exact solution.
+  void prescribe(VectorType &change, const VectorType &displacement, double from, double to) const;
+
   /// D -> P D P at constrained nodes.
   void project(DampingBlocks<dim> &) const;
 

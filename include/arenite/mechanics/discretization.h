@@ -52,6 +52,9 @@ public:
 
   const std::vector<unsigned int> &list() const { return nodes; }
 
+  /// Of the node at @p line of the list.
+  std::vector<Master> masters(unsigned int line) const;
+
   /// True if @p node hangs and one of its masters is owned by another process.
   bool depends_on_ghosts(unsigned int node) const;
 

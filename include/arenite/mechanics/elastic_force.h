@@ -99,6 +99,26 @@ public:
       mass[n] = law.density * lane(volume[n], place % W);
   }
 
+  /// Column by column from the kernel, so that no second one has to agree with it. Without viscous forces.
+  void cell_stiffness(const unsigned int cell, dealii::FullMatrix<double> &stiffness) const override
+  {
+    const unsigned int place = batches.place(cell);
+    Number             x[dim][n_nodes];
+    load(place / W, positions->begin(), x);
+    stiffness.reinit(dim * n_nodes, dim * n_nodes, true);
+    for (unsigned int column = 0; column < dim * n_nodes; ++column)
+      {
+        Number                u[dim][n_nodes] = {}, v[dim][n_nodes] = {};
+        Amplitudes            Q = {};
+        ElementEnergy<Number> unused;
+        u[column % dim][column / dim] = Number(1.);
+        element_force<false, false>(x, u, v, Q, unused);
+        for (int n = 0; n < n_nodes; ++n)
+          for (int c = 0; c < dim; ++c)
+            stiffness(dim * n + c, column) = -lane(u[c][n], place % W);
+      }
+  }
+
   void inverse_size_squared(dealii::Vector<double> &per_cell) const override
   {
     for (unsigned int b = 0; b < batches.size(); ++b)

@@ -6,6 +6,7 @@
 #include <arenite/materials/linear_elastic.h>
 #include <arenite/mechanics/state.h>
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <array>
@@ -186,6 +187,10 @@ public:
 
   /// The same of one cell: [node].
   virtual void cell_mass(unsigned int cell, std::vector<double> &mass) const = 0;
+
+  /// Stiffness of a cell of the block with its elasticity at rest [N/m], hourglass stiffness included: - d force / d displacement, both
+  /// [node][component]. Where the block is linear elastic at small strain this is its tangent, to the last bit but round-off.
+  virtual void cell_stiffness(unsigned int cell, dealii::FullMatrix<double> &stiffness) const = 0;
 
   /// Squared Frobenius norm of the inverse Jacobian of each cell of the block, at its smallest point [1/m^2].
   virtual void inverse_size_squared(dealii::Vector<double> &per_cell) const = 0;

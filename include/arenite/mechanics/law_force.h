@@ -288,6 +288,10 @@ public:
 
   void add_mass(VectorType &mass) const override { elastic->add_mass(mass); }
   void cell_mass(const unsigned int cell, std::vector<double> &mass) const override { elastic->cell_mass(cell, mass); }
+  void cell_stiffness(const unsigned int cell, dealii::FullMatrix<double> &stiffness) const override
+  {
+    elastic->cell_stiffness(cell, stiffness);
+  }
   void inverse_size_squared(dealii::Vector<double> &per_cell) const override
   {
     elastic->inverse_size_squared(per_cell);

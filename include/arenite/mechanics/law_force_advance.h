@@ -55,7 +55,7 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
       const Number q_old = load<Number>(&points.bulk_viscosity[at]);
       Number       q_new = Number(0.);
       viscosity[q]       = Number(0.);
-      if ((b1 > 0. || b2 > 0.) && dt_last > 0.)
+      if ((b1 > 0. || b2 > 0.) && dt_last > 0. && !points.quasi_static)
         {
           const Number c           = load<Number>(&points.wave_speed[at]),
                        l           = Number(Operators::length_of_unit) * Shape::length_along(m.strain, A),

@@ -29,7 +29,8 @@ struct PointData
   dealii::AlignedVector<double> hourglass; ///< [batch][lane], work that went into the patterns of the cell [J]
 
   bool         stores_points = false;
-  bool         advances      = false;                                    ///< the next forces begin a new step
+  bool         advances      = false; ///< the next forces begin a new step
+  bool         quasi_static  = false; ///< steps are those of a load: there is no bulk viscosity
   unsigned int step          = std::numeric_limits<unsigned int>::max(); ///< State::step that the points belong to
 
   // sums over the points of this process [J]: the first two at t_n, the others since the start

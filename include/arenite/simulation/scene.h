@@ -15,6 +15,7 @@
 #include <arenite/simulation/checkpoint_schedule.h>
 #include <arenite/simulation/initial_energy.h>
 #include <arenite/simulation/initial_velocity.h>
+#include <arenite/statics/static_equilibrium.h>
 #include <arenite/time/stable_time_step.h>
 #include <arenite/verification/solution_choice.h>
 
@@ -48,6 +49,8 @@ struct Scene
   KinematicsChoice kinematics;
   const Symmetry   symmetry;
   double           end_time = std::numeric_limits<double>::quiet_NaN();
+  std::string      analysis = "dynamic";
+  bool             is_static() const { return analysis == "static"; }
 
   MeshChoice<dim>                           mesh;
   ElementChoice                             element;
@@ -59,6 +62,7 @@ struct Scene
   InitialEnergy<dim>                        initial_energy;
   GeostaticStress<dim>                      stress_at_rest;
   StableTimeStep<dim>                       time_step;
+  StaticsChoice                             statics;
   MeshAdaptor<dim>                          adaptor;
   ReceiverSets<dim>                         receivers;
   VTUOutput<dim>                            pictures;
@@ -71,6 +75,7 @@ struct Scene
 private:
   void declare_parameters(Parameters &);
   void finalize(Parameters &);
+  void refuse_motion(const Parameters &) const;
 
   std::string              dimension = "3", symmetry_name = "none"; ///< what DimensionChoice has read already
   std::vector<std::string> block_names, load_names;

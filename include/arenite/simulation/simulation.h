@@ -26,7 +26,7 @@ public:
   /// interrupted run, which run() goes on with.
   void set_up(const FoundCheckpoint * = nullptr);
 
-  /// From 0 to the end time; writes into @p directory. Fills record(). PhysicsAlarm when the state leaves physics.
+  /// From 0 to the end time, in motion or through equilibria; writes into @p directory. Fills record(). PhysicsAlarm when the state leaves physics.
   /// @return false if it was asked to stop before; there is a checkpoint then
   bool run(const OutputDirectory &directory);
 
@@ -56,6 +56,9 @@ private:
   void                                set_initial_state();
   std::unique_ptr<InternalForce<dim>> make_block(Block &) const;
   bool                                march(const OutputDirectory &);
+  bool                                load_slowly(const OutputDirectory &);
+  void                                finish_receivers();
+  void                                record_run();
   void                                describe() const;
   void                                reinit_receivers();
   bool                                adapt(double dt);

@@ -1,0 +1,56 @@
+#include <arenite/base/errors.h>
+#include <arenite/simulation/simulation.h>
+#include <arenite/statics/static_equilibrium.h>
+
+#include <sstream>
+
+namespace Arenite
+{
+/// From equilibrium to equilibrium, with a row of the receivers and a line of the log at each.
+template <int dim>
+bool Simulation<dim>::load_slowly(const OutputDirectory &directory)
+{
+  reinit_receivers();
+  scene.receivers.open(directory.path(), 0., scene.end_time, scene.exact_solution.get());
+  begin = Clock::now();
+  StaticEquilibrium<dim> equilibrium(*dynamics, state, scene.statics,
+                                     [this](const std::string &text) { log.line("Warning    " + text); });
+  scene.receivers.record(state);
+  try
+    {
+      const double dt = scene.end_time / scene.statics.load_steps;
+      for (unsigned int step = 1; step <= scene.statics.load_steps; ++step)
+        {
+          const bool last   = step == scene.statics.load_steps;
+          const auto effort = equilibrium.advance_to(last ? scene.end_time : step * dt);
+          record.newton_iterations += effort.newton;
+          record.linear_iterations += effort.linear;
+          record.dof_steps += dim * double(discretization.n_nodes()) * effort.evaluations;
+          std::ostringstream text;
+          text << "Load step  " << step << ", t = " << state.time << " s: " << effort.newton << " Newton, "
+               << effort.linear << " linear iterations, out of balance " << effort.residual;
+          log.line(text.str());
+          scene.receivers.record(state);
+          if (scene.pictures.enabled() && (last || scene.pictures.is_due(state.time, dt)))
+            write_picture(directory);
+        }
+    }
+  catch (const PhysicsAlarm &alarm) // keep what was recorded on the way there
+    {
+      scene.receivers.finish();
+      log.to_file(alarm.what());
+      throw;
+    }
+  equilibrium.release();
+  finish_receivers();
+  record_run();
+  record.is_static = true;
+  return true;
+}
+
+#define ARENITE_INSTANTIATE(dim) template bool Simulation<dim>::load_slowly(const OutputDirectory &);
+ARENITE_INSTANTIATE(1)
+ARENITE_INSTANTIATE(2)
+ARENITE_INSTANTIATE(3)
+#undef ARENITE_INSTANTIATE
+} // namespace Arenite
