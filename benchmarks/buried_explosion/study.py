@@ -24,7 +24,7 @@ def explode(title, table, depth=1., refinement=MESH, **settings):
     run = study.run(SCENE, {"Mesh/Depth": depth, "Mesh/Outer distance": max(2., 1.5 * depth), "Mesh/Refinement": refinement, "Output/VTU interval": 0,
                             "Receivers/surface/Points": "; ".join(f"{r}, 0, {depth:.6g}" for r in (0, .25, .5, 1, 1.5)),
                             "Receivers": "surface, below, axis", "Receivers/axis/Points": "; ".join(place), "Receivers/axis/Quantities": "history",
-                            "Receivers/axis/Interval": 1e-3, "Loads/weight/Acceleration": f"{across}, -9.81", **settings}, repeat=1)
+                            "Receivers/axis/Interval": 1e-3, "Receivers/below/Directions": "1, 0, 0; 0, 0, -1", "Loads/weight/Acceleration": f"{across}, -9.81", **settings}, repeat=1)
     surface, below, axis = (run.table(f"receivers-{name}.csv") for name in ("surface", "below", "axis"))
     column = lambda table, name: numpy.array(table[name])
     up = [column(surface, f"p{i}.velocity_z [m/s]") for i in range(1, 6)]

@@ -62,7 +62,7 @@ void GeostaticStress<dim>::finalize(const Parameters &parameters, const Geometry
     else if (const auto *boundary = dynamic_cast<const AbsorbingBoundary<dim> *>(load.get()))
       absorbing.insert(absorbing.end(), boundary->boundaries().begin(), boundary->boundaries().end());
   if (!found || gravity.norm() == 0.)
-    parameters.refuse(path + "/Stress", "= geostatic needs a load of 'Type = gravity' that acts at t = 0");
+    parameters.refuse(path + "/Stress", "needs a load of 'Type = gravity' that acts at t = 0");
   down = gravity / gravity.norm();
   if (held_boundaries == std::vector<std::string>{"auto"})
     held_boundaries = absorbing;

@@ -86,16 +86,25 @@ void set_stress(const GeostaticStress<dim> &wanted, const Dynamics<dim> &dynamic
 } // namespace
 
 template <int dim>
-double begin_under_stress(const GeostaticStress<dim> &stress, Dynamics<dim> &dynamics, State<dim> &state,
-                          const std::vector<std::string> &block_names)
+void begin_under_stress(const GeostaticStress<dim> &stress, Dynamics<dim> &dynamics, State<dim> &state,
+                        const std::vector<std::string> &block_names)
 {
   set_stress(stress, dynamics, state, block_names);
   dynamics.compute_internal_force(state); // points see it, without any strain
-  for (const auto &load : dynamics.loads)
-    if (dynamic_cast<const Gravity<dim> *>(load.get()) || dynamic_cast<const HeldStress<dim> *>(load.get()))
-      load->add(state.force, state);
+  state.force = 0.;
   for (BlockState &block : state.blocks)
     block.points.dissipated = 0.; // what is stored was there before
+}
+
+template <int dim>
+double unbalanced_part(const GeostaticStress<dim> &stress, const bool all_loads, Dynamics<dim> &dynamics,
+                       State<dim> &state)
+{
+  dynamics.compute_internal_force(state);
+  for (const auto &load : dynamics.loads)
+    if (all_loads || dynamic_cast<const Gravity<dim> *>(load.get()) ||
+        dynamic_cast<const HeldStress<dim> *>(load.get()))
+      load->add(state.force, state);
   dynamics.constraints.project(state.force);
   double largest = 0.;
   for (unsigned int node = 0; node < dynamics.discretization.n_owned_nodes(); ++node)
@@ -110,10 +119,12 @@ double begin_under_stress(const GeostaticStress<dim> &stress, Dynamics<dim> &dyn
   return Utilities::MPI::max(largest, dynamics.discretization.communicator);
 }
 
-template double begin_under_stress(const GeostaticStress<1> &, Dynamics<1> &, State<1> &,
-                                   const std::vector<std::string> &);
-template double begin_under_stress(const GeostaticStress<2> &, Dynamics<2> &, State<2> &,
-                                   const std::vector<std::string> &);
-template double begin_under_stress(const GeostaticStress<3> &, Dynamics<3> &, State<3> &,
-                                   const std::vector<std::string> &);
+#define ARENITE_INSTANTIATE(dim)                                                                  \
+  template void   begin_under_stress(const GeostaticStress<dim> &, Dynamics<dim> &, State<dim> &, \
+                                     const std::vector<std::string> &);                           \
+  template double unbalanced_part(const GeostaticStress<dim> &, bool, Dynamics<dim> &, State<dim> &);
+ARENITE_INSTANTIATE(1)
+ARENITE_INSTANTIATE(2)
+ARENITE_INSTANTIATE(3)
+#undef ARENITE_INSTANTIATE
 } // namespace Arenite

@@ -1,3 +1,4 @@
+#include <arenite/loads/absorbing.h>
 #include <arenite/loads/body_force.h>
 #include <arenite/loads/nodal_force.h>
 #include <arenite/materials/elasticity_at_rest.h>
@@ -82,7 +83,10 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
   constraints.declare_parameters(parameters);
   {
     const auto section = parameters.section("Initial conditions");
-    parameters.add_choice("State", initial_state, {"rest", "exact solution"}, "Displacement and velocity at t = 0.");
+    parameters.add_choice(
+      "State", initial_state, {"rest", "exact solution", "equilibrium"},
+      "Displacement and velocity at t = 0. 'equilibrium': at rest under the loads of t = 0, found by Newton's "
+      "method from 'Stress'; needs 'Statics' and hourglass control by stiffness.");
     initial_velocity.declare_parameters(parameters);
     initial_energy.declare_parameters(parameters);
     stress_at_rest.declare_parameters(parameters);
@@ -150,7 +154,7 @@ void Scene<dim>::finalize(Parameters &parameters)
   pictures.finalize(parameters);
   statistics.finalize(parameters);
 
-  if (is_static())
+  if (is_static() || initial_state == "equilibrium")
     refuse_motion(parameters);
 
   std::shared_ptr<const TimeHistory> pressure;
@@ -172,16 +176,24 @@ void Scene<dim>::finalize(Parameters &parameters)
     loads.push_back(std::make_unique<BodyForce<dim>>(exact_solution));
 }
 
-/// What has no meaning where nothing moves.
+/// What has no meaning where nothing moves, in the whole run or at its start.
 template <int dim>
 void Scene<dim>::refuse_motion(const Parameters &parameters) const
 {
-  const std::string reason = "has no meaning with 'Analysis = static'";
+  const std::string reason =
+    is_static() ? "has no meaning with 'Analysis = static'" : "has no meaning with 'State = equilibrium'";
   if (element.type == "one-point hexahedron" && element.hourglass_control == "viscous")
     parameters.refuse("Element/Hourglass control", reason + ": take 'stiffness'");
   if (!initial_velocity.at_rest())
     parameters.refuse("Initial conditions/Moving regions", reason);
-  if (initial_state != "rest")
+  if (!is_static())
+    for (const auto &load : loads)
+      if (dynamic_cast<const AbsorbingBoundary<dim> *>(load.get()))
+        parameters.refuse("Initial conditions/State",
+                          "the dashpots of '" + load->name +
+                            "' hold nothing at rest. Fix that boundary, or begin with 'State = rest' under a "
+                            "geostatic stress that holds it");
+  if (is_static() && initial_state != "rest")
     parameters.refuse("Initial conditions/State", reason);
 }
 

@@ -188,8 +188,13 @@ void Simulation<dim>::set_initial_state()
       std::vector<std::string> names;
       for (const Block &block : scene.blocks)
         names.push_back(block.name);
-      unbalanced = begin_under_stress(scene.stress_at_rest, *dynamics, state, names);
+      begin_under_stress(scene.stress_at_rest, *dynamics, state, names);
     }
+  const bool settles = scene.initial_state == "equilibrium";
+  if (settles)
+    find_equilibrium();
+  if (scene.stress_at_rest.is_wanted())
+    unbalanced = unbalanced_part(scene.stress_at_rest, settles, *dynamics, state);
 }
 
 /// Speed of the fastest node of all processes [m/s].

@@ -48,7 +48,28 @@ bool Simulation<dim>::load_slowly(const OutputDirectory &directory)
   return true;
 }
 
-#define ARENITE_INSTANTIATE(dim) template bool Simulation<dim>::load_slowly(const OutputDirectory &);
+/// The start of a dynamic run: the equilibrium under the loads of t = 0, from the stress that the points have.
+template <int dim>
+void Simulation<dim>::find_equilibrium()
+{
+  StaticEquilibrium<dim> equilibrium(*dynamics, state, scene.statics);
+  const auto             effort = equilibrium.settle(scene.statics.settling_time);
+  equilibrium.release();
+  state.step = 0;
+  for (BlockState &block : state.blocks)
+    {
+      block.points.step       = 0;
+      block.points.dissipated = block.points.viscous_work = block.points.volume_change = 0.; // before the start
+    }
+  std::ostringstream text;
+  text << "Equilibrium of the start: " << effort.newton << " Newton, " << effort.linear << " linear iterations, "
+       << effort.residual << " of the forces out of balance";
+  log.line(text.str());
+}
+
+#define ARENITE_INSTANTIATE(dim)                                       \
+  template bool Simulation<dim>::load_slowly(const OutputDirectory &); \
+  template void Simulation<dim>::find_equilibrium();
 ARENITE_INSTANTIATE(1)
 ARENITE_INSTANTIATE(2)
 ARENITE_INSTANTIATE(3)

@@ -46,6 +46,10 @@ void StaticsChoice::declare_parameters(Parameters &parameters)
     "over nodes).");
   parameters.add_integer("Largest iterations", largest_iterations, 1, 1000,
                          "Newton iterations after which a load step is halved.");
+  parameters.add_quantity("Settling time", settling_time, "s", positive,
+                          "What passes for laws with viscosity until the equilibrium of 'Initial conditions / State'. "
+                          "Larger: less overstress "
+                          "is left.");
 }
 
 template <int dim>
@@ -170,7 +174,7 @@ void StaticEquilibrium<dim>::predict(const double from, const double time, Vecto
   VectorType change = dynamics.discretization.new_vector(), force = change, answer = change;
   dynamics.constraints.prescribe(change, displacement, from, time);
   evaluate(displacement, residual);
-  if (!residual.valid)
+  if (!residual.valid || (small(residual) && change.linfty_norm() == 0.))
     return;
   // the internal force of what is prescribed, with the rest of the body at rest
   elastic_force(change, force);
@@ -340,6 +344,28 @@ typename StaticEquilibrium<dim>::Effort StaticEquilibrium<dim>::advance_to(const
   state.time         = time;
   state.force        = 0.;
   effort.evaluations = n_evaluations;
+  return effort;
+}
+
+template <int dim>
+typename StaticEquilibrium<dim>::Effort StaticEquilibrium<dim>::settle(const double dt)
+{
+  Effort       effort;
+  const double time = state.time;
+  n_evaluations     = 0;
+  state.time        = time - dt;
+  if (!step_to(time, effort))
+    {
+      std::ostringstream text;
+      text << "t = " << time << " s: no equilibrium under the loads of this time (" << effort.residual
+           << " of the forces stays out of balance). Begin nearer to it with 'Initial conditions / Stress = geostatic' "
+              "and 'Held "
+              "boundaries', or give soil without cohesion a little.";
+      throw PhysicsAlarm(text.str());
+    }
+  effort.steps       = 1;
+  effort.evaluations = n_evaluations;
+  state.force        = 0.;
   return effort;
 }
 

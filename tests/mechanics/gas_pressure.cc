@@ -130,7 +130,8 @@ BOOST_AUTO_TEST_CASE(energy_goes_into_the_body, *label("parallel"))
     for (unsigned int k = 1; k <= steps; ++k)
       end = shell.step(0.5 / steps);
     const double lost = value(start, "gas energy") - value(end, "gas energy"), given = end.work.front().second;
-    BOOST_TEST(value(end, "gas volume") > 1.04 * value(start, "gas volume")); // by 4 % (products, the smaller pressure) to 20 %
+    BOOST_TEST(value(end, "gas volume") >
+               1.04 * value(start, "gas volume")); // by 4 % (products, the smaller pressure) to 20 %
     BOOST_TEST(given > 0.01 * value(start, "gas energy"));
     return given / lost - 1.;
   };

@@ -57,6 +57,7 @@ private:
   std::unique_ptr<InternalForce<dim>> make_block(Block &) const;
   bool                                march(const OutputDirectory &);
   bool                                load_slowly(const OutputDirectory &);
+  void                                find_equilibrium();
   void                                finish_receivers();
   void                                record_run();
   void                                describe() const;

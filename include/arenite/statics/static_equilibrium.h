@@ -13,6 +13,7 @@ struct StaticsChoice
   unsigned int load_steps         = 10;
   double       tolerance          = 1e-8;
   unsigned int largest_iterations = 30;
+  double       settling_time      = 1.; ///< [s]
 
   void declare_parameters(Parameters &);
 };
@@ -52,6 +53,10 @@ public:
   /// Go to the equilibrium at @p time, in one step if it converges, otherwise in shorter ones. PhysicsAlarm if these become shorter than
   /// 1/1024 of it. Collective.
   Effort advance_to(double time);
+
+  /// Go to the equilibrium under the loads of the present time in one step, in which @p dt passes for the laws. PhysicsAlarm if it
+  /// does not converge. Collective.
+  Effort settle(double dt);
 
   /// From now on the state is one of dynamics, at rest.
   void release();
