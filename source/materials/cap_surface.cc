@@ -66,7 +66,7 @@ double CapSurface::junction(const double X) const
 
 double CapSurface::position_through(const double I1, const double j) const
 {
-  if (I1 <= initial_position && j == 0.)
+  if (I1 <= 0.) // tension: no cap holds it
     return initial_position;
   if (j >= failure(I1).value)
     return std::max(I1, initial_position);

@@ -1,8 +1,9 @@
+#include <arenite/adaptivity/cell_transport.h>
 #include <arenite/base/errors.h>
 #include <arenite/simulation/initial_stress.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 namespace Arenite
@@ -11,72 +12,64 @@ using namespace dealii;
 
 namespace
 {
-/// Points of a cell in the unit cell, in the order of a block's records.
+/// Points of a cell in the unit cell, in the order of a block's records; its centre for a block that keeps nothing.
 template <int dim>
 std::vector<Point<dim>> points_of(const CellRecord &record)
 {
-  std::vector<Point<dim>> result;
-  const unsigned int      per_line = record.points.size();
-  for (unsigned int q = 0; q < Utilities::pow(per_line, dim); ++q)
-    {
-      Point<dim> xi;
-      for (unsigned int d = 0, i = q; d < dim; ++d, i /= per_line)
-        xi[d] = record.points[i % per_line];
-      result.push_back(xi);
-    }
+  const std::vector<double> line     = record.points.empty() ? std::vector<double>{0.5} : record.points;
+  const unsigned int        per_line = line.size();
+  std::vector<Point<dim>>   result(Utilities::pow(per_line, dim));
+  for (unsigned int q = 0; q < result.size(); ++q)
+    for (unsigned int d = 0, i = q; d < dim; ++d, i /= per_line)
+      result[q][d] = line[i % per_line];
   return result;
 }
 
-/// Stress and history of all points.
+/// Stress and history of the points of a cell of @p block. @return why one of them cannot begin so, with its place, or nothing
+template <int dim>
+std::string set_stress(const GeostaticStress<dim> &wanted, const Discretization<dim> &discretization,
+                       const InternalForce<dim> &block, const unsigned int cell, BlockState &state)
+{
+  const CellRecord        record = block.cell_record();
+  const auto              points = points_of<dim>(record);
+  const auto              id     = discretization.cells()[cell]->material_id();
+  std::vector<Point<dim>> nodes;
+  std::vector<double>     values(std::max(record.size(dim), 6u));
+  discretization.cell_positions(cell, nodes);
+  block.pack(state, cell, values.data());
+  for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      Point<dim> x;
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        x += discretization.fe.shape_value(discretization.lexicographic[i], points[q]) * nodes[i];
+      const SymTensor<double> stress = wanted.at(x, id);
+      double                 *at     = &values[q * record.n_values];
+      if (const std::string reason = block.begin_under(stress, wanted.past_of(id).overconsolidation, at + 6);
+          !reason.empty())
+        {
+          std::ostringstream text;
+          text << " at (" << x << "): " << reason;
+          return text.str();
+        }
+      std::copy_n(&stress[0], 6, at);
+    }
+  block.unpack(state, cell, values.data());
+  return "";
+}
+
+/// The same of all cells; InputError on all processes if one cannot.
 template <int dim>
 void set_stress(const GeostaticStress<dim> &wanted, const Dynamics<dim> &dynamics, State<dim> &state,
                 const std::vector<std::string> &block_names)
 {
   const Discretization<dim> &discretization = dynamics.discretization;
-  std::vector<unsigned int>  all(discretization.cells().size());
-  std::iota(all.begin(), all.end(), 0);
-  std::string             problem;
-  std::vector<Point<dim>> nodes;
-  for (unsigned int b = 0; b < dynamics.blocks.size() && problem.empty(); ++b)
+  std::string                problem;
+  for (unsigned int cell = 0; cell < discretization.cells().size() && problem.empty(); ++cell)
     {
-      const InternalForce<dim> &block  = *dynamics.blocks[b];
-      const CellRecord          record = block.cell_record();
-      const auto                points = points_of<dim>(record);
-      std::vector<double>       values;
-      for (const unsigned int cell : all)
-        {
-          if (!block.contains(cell))
-            continue;
-          discretization.cell_positions(cell, nodes);
-          values.assign(record.size(dim), 0.);
-          if (points.size() > 0)
-            block.pack(state.blocks[b], cell, values.data());
-          for (unsigned int q = 0; q < std::max<std::size_t>(points.size(), 1) && problem.empty(); ++q)
-            {
-              Point<dim> x;
-              for (unsigned int i = 0; i < nodes.size(); ++i)
-                x += (points.size() > 1 ? discretization.fe.shape_value(discretization.lexicographic[i], points[q])
-                                        : 1. / nodes.size()) *
-                     nodes[i];
-              const auto  stress = wanted.at(x, discretization.cells()[cell]->material_id());
-              double     *at     = values.data() + q * record.n_values;
-              const auto &past   = wanted.past_of(discretization.cells()[cell]->material_id());
-              const auto  reason = block.begin_under(stress, past.overconsolidation, at + 6);
-              if (!reason.empty())
-                {
-                  std::ostringstream text;
-                  text << "[Initial conditions] Stress = geostatic: block '" << block_names[b] << "' at (" << x
-                       << "): " << reason;
-                  problem = text.str();
-                  break;
-                }
-              for (unsigned int k = 0; k < 6; ++k)
-                at[k] = stress[k];
-            }
-          if (!problem.empty())
-            break;
-          block.unpack(state.blocks[b], cell, values.data());
-        }
+      const unsigned int b      = block_of(dynamics, cell);
+      const std::string  reason = set_stress(wanted, discretization, *dynamics.blocks[b], cell, state.blocks[b]);
+      if (!reason.empty())
+        problem = "[Initial conditions] Stress = geostatic: block '" + block_names[b] + "'" + reason;
     }
   for (const std::string &text : Utilities::MPI::all_gather(discretization.communicator, problem))
     if (!text.empty())

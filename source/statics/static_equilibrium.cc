@@ -30,8 +30,6 @@ LinearOperator<Function> linear_operator(const Function &apply)
 {
   return {apply};
 }
-
-bool is_affine_in_displacement(const bool stores_points) { return !stores_points; }
 } // namespace
 
 void StaticsChoice::declare_parameters(Parameters &parameters)
@@ -48,8 +46,7 @@ void StaticsChoice::declare_parameters(Parameters &parameters)
                          "Newton iterations after which a load step is halved.");
   parameters.add_quantity("Settling time", settling_time, "s", positive,
                           "What passes for laws with viscosity until the equilibrium of 'Initial conditions / State'. "
-                          "Larger: less overstress "
-                          "is left.");
+                          "Larger: less overstress is left.");
 }
 
 template <int dim>
@@ -139,7 +136,7 @@ void StaticEquilibrium<dim>::elastic_force(const VectorType &u, VectorType &forc
   free.project(force);
 }
 
-/// @p x on entry is zero. A solver that gives up leaves the best it has.
+/// From zero. A solver that gives up leaves the best it has.
 template <int dim>
 template <typename Solver, typename Operator>
 void StaticEquilibrium<dim>::solve(const Operator &A, const VectorType &rhs, const double tolerance, VectorType &x,
@@ -359,8 +356,7 @@ typename StaticEquilibrium<dim>::Effort StaticEquilibrium<dim>::settle(const dou
       std::ostringstream text;
       text << "t = " << time << " s: no equilibrium under the loads of this time (" << effort.residual
            << " of the forces stays out of balance). Begin nearer to it with 'Initial conditions / Stress = geostatic' "
-              "and 'Held "
-              "boundaries', or give soil without cohesion a little.";
+              "and 'Held boundaries', or give soil without cohesion a little.";
       throw PhysicsAlarm(text.str());
     }
   effort.steps       = 1;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <string>
 
+#include "cavity_scene.h"
 #include "static_body.h"
 
 using namespace Arenite;
@@ -13,7 +14,7 @@ using boost::unit_test::label;
 namespace
 {
 /// Hollow sphere 1 < r < 2 of E = 200 MPa, nu = 0.3 under an inner pressure of 1 MPa.
-const std::string sphere = R"(
+const std::string sphere = reference_soil + R"(
 set Analysis = static
 set End time = 1
 set Loads    = pressure
@@ -26,13 +27,6 @@ subsection Mesh
   set Inner radius = 1
   set Outer radius = 2
 end
-subsection Materials
-  subsection solid
-    set Density       = 2200
-    set Young modulus = 200e6
-    set Poisson ratio = 0.3
-  end
-end
 subsection Loads
   subsection pressure
     set Boundary  = cavity
@@ -40,6 +34,32 @@ subsection Loads
   end
 end
 )";
+
+/// Cap soil without viscosity, the example of the law of this name, with its cap at @p position [Pa].
+std::string rate_independent_cap(const std::string &position)
+{
+  return R"(
+subsection Materials
+  subsection solid
+    set Law                     = viscoplastic cap
+    set Density                 = 2000
+    set Bulk modulus            = 1.2e+09
+    set Shear modulus           = 5.5e+08
+    set Failure alpha           = 100000
+    set Failure gamma           = 40000
+    set Failure beta            = 5e-07
+    set Failure theta           = 0.22
+    set Cap axis ratio R        = 3
+    set Initial cap position X0 = )" +
+         position + R"(
+    set Hardening rate D        = 2e-09
+    set Hardening limit W       = 0.18
+    set Tension limit T         = 20000
+    set Viscosity               = none
+  end
+end
+)";
+}
 
 /// Lame: u = A r + B/r^2.
 template <int dim>
@@ -331,25 +351,8 @@ subsection Element
   set Type = )" +
          element + R"(
 end
-subsection Materials
-  subsection solid
-    set Law                     = viscoplastic cap
-    set Density                 = 2000
-    set Bulk modulus            = 1.2e+09
-    set Shear modulus           = 5.5e+08
-    set Failure alpha           = 100000
-    set Failure gamma           = 40000
-    set Failure beta            = 5e-07
-    set Failure theta           = 0.22
-    set Cap axis ratio R        = 3
-    set Initial cap position X0 = 3e+06
-    set Hardening rate D        = 2e-09
-    set Hardening limit W       = 0.18
-    set Tension limit T         = 20000
-    set Viscosity               = none
-  end
-end
-subsection Loads
+)" + rate_independent_cap("3e+06") +
+         R"(subsection Loads
   subsection cell pressure
     set Boundary  = x max
     set Amplitude = 3e5
@@ -439,25 +442,8 @@ subsection Mesh
   set Outer radius = 4
   set Refinement   = 2
 end
-subsection Materials
-  subsection solid
-    set Law                     = viscoplastic cap
-    set Density                 = 2000
-    set Bulk modulus            = 1.2e+09
-    set Shear modulus           = 5.5e+08
-    set Failure alpha           = 100000
-    set Failure gamma           = 40000
-    set Failure beta            = 5e-07
-    set Failure theta           = 0.22
-    set Cap axis ratio R        = 3
-    set Initial cap position X0 = 4e+05
-    set Hardening rate D        = 2e-09
-    set Hardening limit W       = 0.18
-    set Tension limit T         = 20000
-    set Viscosity               = none
-  end
-end
-subsection Loads
+)" + rate_independent_cap("4e+05") +
+                           R"(subsection Loads
   subsection pressure
     set Boundary   = cavity, outer
     set Amplitude  = 2e5
