@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -59,6 +60,8 @@ struct Scratch
   }
   ~Scratch()
   {
+    if (std::uncaught_exceptions() == 0)
+      MPI_Barrier(world); // others may still read
     on_first([&]() { fs::remove_all(path); });
   }
   std::string path;
