@@ -54,8 +54,9 @@ void MeshAdaptor<dim>::declare_parameters(Parameters &parameters)
     "Boxes of the undeformed body whose cells stay at the finest level, two opposite corners each.");
   parameters.add_points("Coarse boxes", coarse_boxes, "m",
                         "Boxes that stay as the initial mesh is, whatever happens in them, two opposite corners each.");
-  parameters.add_list("Initially refined boundaries", boundary_names,
-                      "Boundaries with fine cells at the start; 'auto': those under pressure.");
+  parameters.add_list(
+    "Initially refined boundaries", boundary_names,
+    "Boundaries with fine cells at the start; 'auto': those under pressure or with a prescribed velocity.");
   parameters.add_integer("Largest number of cells", cell_limit, 1, 1000000000,
                          "The run stops with a message before it exceeds this.");
 }
@@ -68,6 +69,7 @@ void MeshAdaptor<dim>::finalize(const Parameters &parameters, const MeshChoice<d
        {std::make_pair("Refined boxes", &fine_boxes), std::make_pair("Coarse boxes", &coarse_boxes)})
     if (boxes->size() % 2 != 0)
       parameters.refuse(std::string("Adaptivity/") + entry, "needs two corners for each box");
+  room                 = layers / 2 + 1; // something may start away from the refined boundaries
   base_level           = mesh.refinement;
   refine_geometry      = mesh.refine_geometry;
   automatic_boundaries = boundary_names == std::vector<std::string>{"auto"};
@@ -204,30 +206,40 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
 {
   const Discretization<dim> &discretization = dynamics.discretization;
   const auto                &cells          = discretization.cells();
-  const unsigned int         finest = base_level + levels, kept = static_cast<unsigned int>(layers_between_looks()) + 1;
-  std::vector<bool>          front(triangulation.n_active_cells(), false), quiet(front.size(), true), coarse(front);
-  find_front(dynamics, state, front, quiet);
+  const unsigned int         finest         = base_level + levels;
+  std::vector<bool> front(triangulation.n_active_cells(), false), quiet(front.size(), pass == 0), coarse(front);
+  if (pass == 0)
+    find_front(dynamics, state, front, quiet);
+  else
+    for (const auto &cell : cells)
+      front[cell->active_cell_index()] = in_front[cell->active_cell_index()] > 0.;
   obey_boxes(discretization, front, coarse);
+  in_front.reinit(static_cast<unsigned int>(front.size()));
+  std::copy(front.begin(), front.end(), in_front.begin());
   const std::vector<unsigned int> layers_of = layers_from(triangulation, front, finest, levels * layers);
   const std::vector<unsigned int> wanted    = wanted_levels(layers_of, coarse);
 
-  std::vector<unsigned long> count(4, 0); // in the front and too coarse; near it; below the wanted level; above
+  std::vector<unsigned long> count(3, 0); // in the front and too coarse; below the wanted level; above
+  room = layers;
   for (const auto &cell : cells)
     {
       const unsigned int index = cell->active_cell_index(), level = cell->level();
       quiet[index] = quiet[index] || coarse[index];
       count[0] += front[index] && level < finest;
-      count[1] += layers_of[index] < kept && level < finest && !coarse[index];
-      count[2] += level < wanted[index];
-      count[3] += quiet[index] && level > wanted[index];
+      count[1] += level < wanted[index];
+      count[2] += quiet[index] && level > wanted[index];
+      if (level < finest && !coarse[index])
+        room = std::min(room, layers_of[index]);
     }
+  room = Utilities::MPI::min(room, discretization.communicator);
   Utilities::MPI::sum(count, discretization.communicator, count);
-  const unsigned long met = count[0], near = count[1], below = count[2], above = count[3];
+  const unsigned long met = count[0], below = count[1], above = count[2];
+  const bool          is_near = room < std::max(2u, layers / 4);
   if (pass == 0)
     n_met += met;
   // a front that is far enough from coarse cells may wait, unless a quarter of all cells could be joined
   const auto is_many = [&](const unsigned long n) { return 4 * n > triangulation.n_global_active_cells(); };
-  if (pass == 0 ? near == 0 && !is_many(above) : below == 0)
+  if (pass == 0 ? !is_near && !is_many(above) : below == 0)
     return false;
   keep_what_is_distorted(discretization, state.displacement, quiet);
   set_flags(triangulation, wanted, quiet);
@@ -240,7 +252,7 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
     }
   refined = Utilities::MPI::sum(refined, discretization.communicator);
   joined  = Utilities::MPI::sum(joined, discretization.communicator);
-  if (pass > 0 ? refined > 0 : (near > 0 ? refined + joined > 0 : is_many(joined)))
+  if (pass > 0 ? refined > 0 : (is_near ? refined + joined > 0 : is_many(joined)))
     return true;
   for (const auto &cell : triangulation.active_cell_iterators())
     {
@@ -324,7 +336,7 @@ private:
 
 template <int dim>
 void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dynamics, State<dim> &state,
-                               StableTimeStep<dim> &time_step) const
+                               StableTimeStep<dim> &time_step)
 {
   Discretization<dim> &discretization = dynamics.discretization;
 
@@ -342,8 +354,9 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
         transfer.add(consistent);
       }
   transfer.prepare();
-  RatioTransfer<dim> ratios(triangulation);
+  RatioTransfer<dim> ratios(triangulation), marks(triangulation);
   ratios.prepare(time_step.ratio, discretization);
+  marks.prepare(in_front, discretization);
   PointTransfer<dim>    points(triangulation, dynamics, state);
   MomentumTransfer<dim> momentum(triangulation, dynamics, velocity);
   triangulation.execute_coarsening_and_refinement();
@@ -373,7 +386,9 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
   points.unpack(state);
   zero_at_hanging_nodes(discretization, state.half_velocity);
 
+  room = layers;
   ratios.unpack(time_step.ratio);
+  marks.unpack(in_front);
 }
 
 template <int dim>
@@ -398,6 +413,7 @@ void MeshAdaptor<dim>::exchange(StateArchive &archive)
   archive.common(crossed);
   archive.common(crossing_at_rest);
   archive.common(n_met);
+  archive.common(room);
 }
 
 template class MeshAdaptor<1>;

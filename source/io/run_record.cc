@@ -41,6 +41,7 @@ void RunRecord::write(const OutputDirectory &directory) const
       json["degree"]                  = degree;
       json["symmetry_factor"]         = symmetry_factor;
       json["cells"]                   = cells;
+      json["most_cells"]              = most_cells;
       json["dofs"]                    = dofs;
       json["steps"]                   = steps;
       json["time"]                    = time;

@@ -296,6 +296,15 @@ double Constraints<dim>::power(const VectorType &half_velocity) const
 }
 
 template <int dim>
+std::vector<types::boundary_id> Constraints<dim>::driven_boundaries() const
+{
+  std::vector<types::boundary_id> result;
+  for (const auto &boundary : prescribed)
+    result.insert(result.end(), boundary->ids.begin(), boundary->ids.end());
+  return result;
+}
+
+template <int dim>
 double Constraints<dim>::largest_speed(const double time) const
 {
   double largest = 0.;

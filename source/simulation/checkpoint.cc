@@ -30,8 +30,9 @@ void Simulation<dim>::exchange_state(StateArchive &archive)
   for (const auto &load : dynamics->loads)
     load->exchange(archive);
   archive.sum(step_power);
-  for (double *value : {&cell_steps, &local_cell_steps, &known_energy, &initial_mass, &output_seconds,
-                        &adaptation_seconds, &record.mass_error, &record.momentum_error, &record.dof_steps})
+  for (double *value :
+       {&cell_steps, &local_cell_steps, &known_energy, &initial_mass, &output_seconds, &adaptation_seconds,
+        &record.mass_error, &record.momentum_error, &record.dof_steps, &record.most_cells})
     archive.common(*value);
   double in_the_loop =
     archive.loads() ? 0. : earlier_seconds + core_seconds(begin); // with output, which is counted alone

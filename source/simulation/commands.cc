@@ -4,6 +4,7 @@
 #include <arenite/simulation/cheaper_form.h>
 #include <arenite/simulation/commands.h>
 #include <arenite/simulation/convergence_table.h>
+#include <arenite/simulation/cost_forecast.h>
 #include <arenite/simulation/simulation.h>
 
 #include <cmath>
@@ -141,6 +142,30 @@ std::string cheaper_form(const std::vector<Reduction> &forms, const RunOptions &
   return "";
 }
 
+/// A line of what an adaptive scene will cost, from trials.
+std::string describe_forecast(const RunOptions &options, const unsigned int levels, const double coarse_core_seconds)
+{
+  std::optional<CostForecast> forecast;
+  try
+    {
+      forecast = forecast_cost(options, levels, coarse_core_seconds, MPI_COMM_WORLD);
+    }
+  catch (const PhysicsAlarm &)
+    {
+      return "Forecast   none: a trial with fewer levels left physics, which its coarse cells may explain";
+    }
+  if (!forecast)
+    return levels < 2 ? "Forecast   none: with one level a trial would be the run"
+                      : "Forecast   none: trials with fewer levels would take more than a minute";
+  std::ostringstream text;
+  text.precision(3);
+  text << "Forecast   about " << forecast->core_seconds << " core-seconds for the time loop with all levels, "
+       << std::lround(forecast->memory_mb) << " MB of memory, at most " << std::lround(forecast->cells)
+       << " cells: from trials of up to " << forecast->levels << (forecast->levels == 1 ? " level (" : " levels (")
+       << forecast->trial_core_seconds << " core-seconds)";
+  return text.str();
+}
+
 /// `Mesh / Refinement` as the scene has it, before the objects that check it exist.
 unsigned int first_refinement(const Parameters &parameters)
 {
@@ -168,7 +193,9 @@ int check(const RunOptions &options)
       log.line(scene.title);
     const std::vector<Reduction> forms = cheaper_forms(scene, parameters);
     simulation.set_up();
-    simulation.describe_cost();
+    const double coarse = simulation.describe_cost();
+    if (scene.adaptor.active() && !scene.is_static())
+      log.line(describe_forecast(options, scene.adaptor.max_passes(), coarse));
     const std::string cheaper = cheaper_form(forms, options, {simulation.unknowns(), simulation.expected_steps()});
     if (!cheaper.empty())
       log.line(cheaper);

@@ -42,7 +42,7 @@ void Simulation<dim>::make_mesh()
                      " gives more than 4.2e9 unknowns, the limit of 32-bit numbering. Use a coarser mesh.");
   triangulation.refine_global(scene.mesh.refinement);
 
-  std::vector<types::boundary_id> loaded;
+  std::vector<types::boundary_id> loaded = scene.constraints.driven_boundaries();
   for (const auto &load : scene.loads)
     for (const auto id : load->loaded_boundaries())
       loaded.push_back(id);
@@ -129,6 +129,7 @@ template <int dim>
 void Simulation<dim>::note_levels()
 {
   const double updates = double(state.step - step_of_adaptation) * triangulation.n_global_active_cells();
+  record.most_cells    = std::max(record.most_cells, double(triangulation.n_global_active_cells()));
   cell_steps += updates;
   local_cell_steps += updates * share_of_updates(triangulation);
 }
@@ -283,7 +284,7 @@ double Simulation<dim>::expected_steps() const
 }
 
 template <int dim>
-void Simulation<dim>::describe_cost()
+double Simulation<dim>::describe_cost()
 {
   // the fastest of a few force evaluations; the update and the ledgers add about a tenth
   double fastest = std::numeric_limits<double>::max();
@@ -296,7 +297,7 @@ void Simulation<dim>::describe_cost()
       fastest     = std::min(fastest, core_seconds(start));
       state.force = 0.;
     }
-  const double steps = expected_steps();
+  const double steps = expected_steps(), expected = 1.1 * steps * fastest;
   record.measure_memory(communicator);
   std::ostringstream text;
   text.precision(3);
@@ -305,25 +306,26 @@ void Simulation<dim>::describe_cost()
          << " core-seconds for an iteration on this mesh; ten to some hundred are usual in each of "
          << scene.statics.load_steps << " load steps";
   else
-    text << "Cost       about " << 1.1 * steps * fastest << " core-seconds for the time loop on this mesh, "
+    text << "Cost       about " << expected << " core-seconds for the time loop on this mesh, "
          << std::lround(record.total_memory_mb) << " MB of memory";
   if (scene.adaptor.active())
     {
       const double finest = triangulation.n_global_coarse_cells() *
                             std::pow(2., dim * (scene.mesh.refinement + scene.adaptor.max_passes()));
       text << "\nAdaptive   " << triangulation.n_global_active_cells() << " cells now, " << std::uint64_t(finest)
-           << " if all were fine; a change of the mesh costs about as much as 100 steps";
+           << " if all were fine";
     }
   if (scene.pictures.enabled())
     text << "\nOutput     " << scene.pictures.expected_pictures(scene.end_time) << " pictures of at most "
          << 1e-6 * scene.pictures.expected_bytes(discretization) << " MB each before compression";
   log.line(text.str());
   if (scene.is_static())
-    return;
+    return expected;
   double slowest = std::numeric_limits<double>::max();
   for (const Block &block : scene.blocks)
     slowest = std::min(slowest, block.material.s_wave_speed());
   log << describe_resolution(triangulation, *dynamics, scene.element, slowest, scene.end_time, communicator);
+  return expected;
 }
 
 template <int dim>

@@ -16,7 +16,8 @@ class StateArchive;
 ///
 /// Cells one of whose indicators exceeds a part of its global maximum (at least 2 % of the largest so far) are the front. They and `Buffer layers` of cells around them are
 /// refined to the finest level; cells outside with a small indicator are coarsened, never below the initial mesh. The mesh is
-/// adapted again before the front has crossed the buffer, which it may do with the speed of P waves, so that it never meets a coarse cell.
+/// adapted again before the front has crossed the buffer, which it may do with the speed of P waves, so that it never meets a coarse cell: the front is looked
+/// at again as soon as it may have crossed what room it had at the last look.
 ///
 /// Displacement, velocity, positions and boundary scalars are interpolated. Positions are a field like the others: refined cells
 /// keep the polynomial shape of their parents, fields are transferred exactly under refinement, and the mass changes only as far as
@@ -32,19 +33,20 @@ public:
 
   bool active() const { return levels > 0; }
 
-  /// Refine around the boundaries that @p loads push on, before the first step: fills the discretization and its positions.
+  /// Refine around the boundaries that loads or prescribed velocities push, before the first step: fills the discretization and its positions.
   void initial_refinement(Triangulation &, Discretization<dim> &,
                           const std::vector<dealii::types::boundary_id> &loaded);
 
   /// A step of length @p dt was done, in which a P wave would need @p crossing for the smallest cell of blocks that store points.
   void follow(const double dt, const double crossing) { crossed += dt / std::min(crossing, crossing_at_rest); }
 
-  bool due() const { return active() && crossed >= layers_between_looks(); }
+  bool due() const { return active() && crossed >= layers_until_next_look(); }
 
   /// Flags for the present state. Returns whether the mesh will change on any process. Collective.
   ///
   /// In the first @p pass of an adaptation the fields come from a run on the present mesh, so that coarse cells in the front are ones that it has met; the
-  /// mesh stays as it is while the front keeps its distance from them and not much could be coarsened. Further passes refine what lacks more than one level.
+  /// mesh stays as it is while the front keeps its distance from them and not much could be coarsened. Further passes refine what lacks more than one level
+  /// of the same front: fields that were just moved tell nothing new, and forces of the new mesh are not yet those of a step.
   bool mark(Triangulation &, const Dynamics<dim> &, const State<dim> &, unsigned int pass);
 
   /// Cells below the finest level that were part of the front when the mesh was adapted, over the run: the buffer was too thin,
@@ -53,7 +55,7 @@ public:
 
   /// Change the mesh as flagged; transfers state, positions, boundary scalars and step ratios; rebuilds
   /// everything. The stable step still has to be updated.
-  void execute(Triangulation &, Dynamics<dim> &, State<dim> &, StableTimeStep<dim> &) const;
+  void execute(Triangulation &, Dynamics<dim> &, State<dim> &, StableTimeStep<dim> &);
 
   /// The next look at the front is due when a P wave may have crossed some layers.
   void schedule(const Dynamics<dim> &);
@@ -64,8 +66,7 @@ public:
   void exchange(StateArchive &);
 
 private:
-  /// All layers but one, or half of them where a look in between may show that the front is slower than P waves.
-  double layers_between_looks() const { return layers < 6 ? std::max(layers - 1., 0.5) : 0.5 * (layers - 1.); }
+  double layers_until_next_look() const { return std::max(room - 1., 0.5); }
 
   std::vector<unsigned int> wanted_levels(const std::vector<unsigned int> &layers_of,
                                           const std::vector<bool>         &coarse) const;
@@ -88,8 +89,11 @@ private:
   bool                                    automatic_boundaries = true, refine_geometry = false;
   unsigned int                            levels = 0, base_level = 0, layers = 8, cell_limit = 50000000;
   double                                  refine_above = 0.2, coarsen_below = 0.05;
-  double                                  marked_at = 0.;                          ///< time of the last mark() [s]
+  double                                  marked_at = 0.; ///< time of the last mark() [s]
+  dealii::Vector<double>                  in_front; ///< 1 for cells of the front, per active cell, during an adaptation
   double crossed = 0., crossing_at_rest = std::numeric_limits<double>::infinity(); ///< layers; [s] of the smallest cell
+  unsigned int room =
+    0; ///< layers of fine cells between the front and the nearest coarse cell, of a buffer at most, at the last look
   unsigned long n_met = 0;
 };
 } // namespace Arenite

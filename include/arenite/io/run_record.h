@@ -22,8 +22,9 @@ struct RunRecord
   unsigned int  dimension = 3, degree = 1, lanes = native_lanes;
   double        symmetry_factor = 1.;
   std::uint64_t cells = 0, dofs = 0, steps = 0; ///< of the last mesh; unknowns = components of all nodes
-  double        time      = 0.;                 ///< reached [s]
-  double        dof_steps = 0.;                 ///< sum over the steps of the unknowns, for the throughput
+  double        time       = 0.;                ///< reached [s]
+  double        most_cells = 0.;                ///< at a time
+  double        dof_steps  = 0.;                ///< sum over the steps of the unknowns, for the throughput
 
   // ranks x wall time [s]
   double setup_core_seconds = 0., core_seconds = 0., output_core_seconds = 0.;

@@ -50,6 +50,9 @@ public:
   /// D -> P D P at constrained nodes.
   void project(DampingBlocks<dim> &) const;
 
+  /// Boundaries with a prescribed velocity.
+  std::vector<dealii::types::boundary_id> driven_boundaries() const;
+
   /// Largest prescribed speed at a time [m/s].
   double largest_speed(double time) const;
 

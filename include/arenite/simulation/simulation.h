@@ -35,8 +35,8 @@ public:
   std::uint64_t unknowns() const { return std::uint64_t(dim) * discretization.n_nodes(); }
   double        expected_steps() const; ///< on the present mesh
 
-  /// Time a few steps and print what a run would cost, for `arenite check`.
-  void describe_cost();
+  /// Time a few steps and print what a run on the present mesh would cost, for `arenite check`; core-seconds.
+  double describe_cost();
 
   RunRecord   record;
   Scene<dim> &scene;
