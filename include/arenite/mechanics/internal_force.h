@@ -87,7 +87,7 @@ enum class CellQuantity
 ///
 /// to the order of the step. One whose moduli belong to the Cauchy stress per present volume (linear elastic, cap with constant moduli)
 /// is hypoelastic at finite strain: work that a volume change does on stored energy, the integral of stored dJ, is lost to it or given
-/// by it. volume_change counts that.
+/// by it. volume_change counts that, also of a law of which one part is so (undrained cap).
 struct BlockEnergy
 {
   double strain         = 0.; ///< sum over points: sigma:epsilon/2, or what the law stores

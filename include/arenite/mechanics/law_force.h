@@ -420,7 +420,8 @@ private:
   /// What the law sees of a batch: the stored arrays, and those of the kernel.
   PointBatch batch_of_points(PointData &points, const unsigned int batch, const double dt,
                              const Number (&strain)[n_points][6], const Number (&density_old)[n_points],
-                             const Number (&density)[n_points], Number (&dissipated)[n_points]) const
+                             const Number (&density)[n_points], Number (&dissipated)[n_points],
+                             Number *stored_by_volume = nullptr) const
   {
     const std::size_t first = std::size_t(batch) * n_points;
     PointBatch        result;
@@ -434,6 +435,8 @@ private:
     result.wave_speed  = &points.wave_speed[first * W];
     result.stored      = &points.stored[first * W];
     result.dissipated  = reinterpret_cast<double *>(dissipated);
+
+    result.stored_by_volume = reinterpret_cast<double *>(stored_by_volume);
     return result;
   }
 

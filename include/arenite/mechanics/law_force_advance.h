@@ -48,7 +48,7 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
 
   // kinematics, viscosity
   Number strain[n_points][6], density_old[n_points], density[n_points], heat[n_points], stored_old[n_points],
-    dissipated[n_points], viscous_work[n_points], size[n_points]; // |A|^2
+    dissipated[n_points], by_volume[n_points], viscous_work[n_points], size[n_points]; // |A|^2
   const double rho_0 = law->density(), b1 = element.linear_viscosity, b2 = element.quadratic_viscosity;
   Number       largest_rate = Number(0.), viscosity[n_points];
   for (int q = 0; q < n_points; ++q)
@@ -97,7 +97,7 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
         }
     }
 
-  PointBatch law_batch = batch_of_points(points, batch, dt, strain, density_old, density, dissipated);
+  PointBatch law_batch = batch_of_points(points, batch, dt, strain, density_old, density, dissipated, by_volume);
   law_batch.heat       = reinterpret_cast<const double *>(heat);
   {
     const Stopwatch watch(points.is_timed ? &points.law_seconds : nullptr);
@@ -120,7 +120,9 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
       loss += w * (with_volume ? Number(Number(0.5) * (J + J_old) * dissipated[q]) : dissipated[q]);
       viscous += w * viscous_work[q];
       volume += w;
-      if (finite && per_present_volume)
+      if (!per_present_volume)
+        volume_change -= w * Number(0.5) * (J + J_old) * by_volume[q];
+      else if (finite)
         volume_change -= w * Number(0.5) * (stored_old[q] + stored) * (J - J_old);
 
       const Number g = shape * size[q], nu = viscosity[q] + Number(law->viscosity_time()) * c * c, f = g * c * c;
