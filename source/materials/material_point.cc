@@ -90,7 +90,7 @@ PointState MaterialPoint::after(const SymTensor<double> &increment, const double
   next.time += dt;
   next.strain += increment;
   next.density  = law.density() / next.volume_ratio();
-  double stored = 0., dissipated = 0.;
+  double stored = 0., dissipated = 0., by_volume = 0.;
 
   PointBatch batch;
   batch.n_points    = 1;
@@ -103,13 +103,16 @@ PointState MaterialPoint::after(const SymTensor<double> &increment, const double
   batch.wave_speed  = &next.wave_speed;
   batch.stored      = &stored;
   batch.dissipated  = &dissipated;
+
+  batch.stored_by_volume = &by_volume;
   law.update(batch);
 
   const double J_n = state.volume_ratio(), J_n1 = next.volume_ratio(), J_mean = 0.5 * (J_n + J_n1);
   const double stored_n = state.stored / J_n;
   next.work += J_mean * contract((state.stress + next.stress) * 0.5, increment);
   next.stored = J_n1 * stored;
-  next.stored_by_volume += 0.5 * (stored_n + stored) * (J_n1 - J_n);
+  next.stored_by_volume +=
+    law.energy_per_present_volume() ? 0.5 * (stored_n + stored) * (J_n1 - J_n) : J_mean * by_volume;
   next.dissipated += J_mean * dissipated;
   next.substeps += batch.substeps;
   return next;

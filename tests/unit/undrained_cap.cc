@@ -138,4 +138,38 @@ BOOST_AUTO_TEST_CASE(air_closes_first)
   BOOST_TEST(K < state.compacted_modulus() * (1. + 7. * p / state.water_modulus));
 }
 
+// Work is stored and dissipated energy and what the change of volume did to the skeleton's store; without that the ledger would not close at any
+// step. Of second order in the step: the mixture stores by its curve, work sees mean pressures.
+BOOST_AUTO_TEST_CASE(energy_closes)
+{
+  for (const std::string &block : example_blocks(UndrainedCap::name))
+    {
+      const auto batch = batch_of(example(block));
+      double     error[2], by_volume = 0.;
+      for (const int i : {0, 1})
+        {
+          const int     n = 1000 << i;
+          MaterialPoint point(batch);
+          double        work = 0.;
+          error[i]           = 0.;
+          for (int step = 0; step < n; ++step)
+            {
+              SymTensor<double> increment = uniaxial((step < 3 * n / 4 ? -0.2 : 0.1) / n);
+              increment[3]                = 0.05 / n;
+              point.advance(increment, 1e-3 / n);
+              const PointState &s = point.state;
+              work                = std::max(work, s.work);
+              error[i]            = std::max(error[i], std::abs(s.work - s.stored - s.dissipated + s.stored_by_volume));
+              by_volume           = std::max(by_volume, std::abs(s.stored_by_volume));
+            }
+          error[i] /= work;
+          by_volume /= work;
+        }
+      BOOST_TEST_MESSAGE(block << ": " << error[0] << ", " << error[1] << "; by volume " << by_volume);
+      BOOST_TEST(error[1] < 1e-4);
+      BOOST_TEST(error[1] < 0.3 * error[0]);
+      BOOST_TEST(by_volume > 10. * error[1]);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -26,10 +26,11 @@ struct PointBatch
   double *stress  = nullptr; ///< [point][6][lane], Cauchy stress [Pa]
   double *history = nullptr; ///< [point][n_history][lane]
 
-  double *wave_speed = nullptr; ///< [point][lane] [m/s]
-  double *stored     = nullptr; ///< [point][lane], per present volume [J/m^3]
-  double *dissipated = nullptr; ///< [point][lane], of this step, per present volume [J/m^3]
-  double  substeps   = 1.;      ///< most parts into which the law divided the step of a point
+  double *wave_speed       = nullptr; ///< [point][lane] [m/s]
+  double *stored           = nullptr; ///< [point][lane], per present volume [J/m^3]
+  double *dissipated       = nullptr; ///< [point][lane], of this step, per present volume [J/m^3]
+  double *stored_by_volume = nullptr; ///< [point][lane], Response::stored_by_volume; not wanted if null
+  double  substeps         = 1.;      ///< most parts into which the law divided the step of a point
 };
 
 /// A number that follows from the parameters, for the log.
@@ -191,6 +192,8 @@ public:
         store<Number>(response.wave_speed, batch.wave_speed + at);
         store<Number>(response.stored, batch.stored + at);
         store<Number>(response.dissipated, batch.dissipated + at);
+        if (batch.stored_by_volume)
+          store<Number>(response.stored_by_volume, batch.stored_by_volume + at);
         batch.substeps = std::max(batch.substeps, response.substeps);
       }
   }

@@ -30,8 +30,11 @@ struct Response
   Number            stored     = Number(0.); ///< recoverable energy [J/m^3], per present volume
   Number dissipated = Number(0.); ///< what the step turned into heat and closed pores, PointIncrement::heat not counted
                                   ///< again [J/m^3], per present volume
-  double     substeps = 1.;       ///< parts into which the law divided the step
-  Iterations iterations;          ///< of the equations that the law solved
+  Number stored_by_volume =
+    Number(0.); ///< what the volume change of the step added to `stored` without work [J/m^3], per present volume;
+                ///< of laws of which a part has moduli of the Cauchy stress, see PointState
+  double     substeps = 1.; ///< parts into which the law divided the step
+  Iterations iterations;    ///< of the equations that the law solved
 };
 
 /// No memory but the stress.
@@ -74,7 +77,7 @@ struct NoHistory
 //     template <typename F>
 //     void for_each_constant(F &&f) const;                         // may be left out: f(name, value, unit) of what the log shows
 //     std::vector<std::string> warnings() const;                   // may be left out: what is admissible and doubtful, for the log
-//     static constexpr bool energy_per_present_volume = true;      // may be left out: moduli of the Cauchy stress, see PointState
+//     static constexpr bool energy_per_present_volume = true;      // may be left out: all moduli are of the Cauchy stress, see PointState
 //     static constexpr int  tensor_history            = 0;         // may be left out: first of six entries that turn with the point
 //     double viscosity_time() const;                               // may be left out: stiffness-proportional viscosity [s]
 //     double relaxation_time_at_rest() const;                      // may be left out: of a small overstress [s]

@@ -13,7 +13,7 @@ namespace Arenite
 /// Energies are per reference volume: work is the integral of J sigma : d eps with the mean stress and the mean J of each step,
 /// stored is J times the law's recoverable energy, dissipated the sum of J times what the law reports. A law that keeps its energy
 /// balance per present volume (constant moduli of the Cauchy stress) leaves work - stored - dissipated = - sum of stored dJ / J,
-/// which is of the order of the strain; any other difference is an error of the law.
+/// which is of the order of the strain; a law that does so in one part says what it is of that. Any other difference is an error of the law.
 struct PointState
 {
   double              time = 0.;                  ///< [s]
@@ -23,7 +23,7 @@ struct PointState
   std::vector<double> history;                    ///< in the order of BatchLaw::history_names()
   double              work = 0., dissipated = 0.; ///< [J/m^3]
   double              stored           = 0.;      ///< [J/m^3]
-  double              stored_by_volume = 0.;      ///< sum of (stored/J) dJ, see above [J/m^3]
+  double              stored_by_volume = 0.;      ///< sum of (stored/J) dJ where that is no work, see above [J/m^3]
   double              substeps         = 0.;      ///< calls of the law times its parts, since the start
 
   double volume_ratio() const; ///< J

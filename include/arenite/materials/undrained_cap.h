@@ -21,7 +21,8 @@ namespace Arenite
 ///
 /// The skeleton keeps constant moduli: the stiffening by closed air comes from the mixture, a stiffening skeleton would count it twice.
 /// W is bounded by all pores, ln(1 + e), because the water in them is the business of the mixture. The mixture is reversible: all
-/// dissipation is the skeleton's.
+/// dissipation is the skeleton's. The mixture's energy is that of its mass; the skeleton with its moduli of the Cauchy stress stores per
+/// present volume, and what a change of the volume does to that is no work: stored_by_volume says it.
 struct UndrainedCap
 {
   static constexpr const char *name = "undrained cap";
@@ -66,8 +67,13 @@ struct UndrainedCap
     const auto        mixture     = pores.update(pore_change, none);
     history.pore_pressure         = mixture.pressure;
 
-    Response<Number> response =
-      skeleton.update(SymTensor<Number>(stress_n + spherical(p_n)), increment, history.skeleton);
+    const SymTensor<Number> effective_n = stress_n + spherical(p_n);
+    Response<Number>        response    = skeleton.update(effective_n, increment, history.skeleton);
+    // the mean of U' times dJ over the mean J
+    response.stored_by_volume =
+      (response.stored +
+       skeleton.stiffness.elastic.stored_energy(pressure(effective_n), second_invariant(deviator(effective_n)))) *
+      (increment.density_old - increment.density) / (increment.density_old + increment.density);
     response.stress = response.stress - spherical(mixture.pressure);
     response.stored = response.stored + increment.density * mixture.stored;
     response.wave_speed =

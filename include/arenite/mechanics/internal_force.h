@@ -87,7 +87,7 @@ enum class CellQuantity
 ///
 /// to the order of the step. One whose moduli belong to the Cauchy stress per present volume (linear elastic, cap with constant moduli)
 /// is hypoelastic at finite strain: work that a volume change does on stored energy, the integral of stored dJ, is lost to it or given
-/// by it. volume_change counts that.
+/// by it. volume_change counts that, also of a law of which one part is so (undrained cap).
 struct BlockEnergy
 {
   double strain         = 0.; ///< sum over points: sigma:epsilon/2, or what the law stores
@@ -135,8 +135,8 @@ public:
   virtual void       pack(const BlockState &, unsigned int /*cell*/, double       */*values*/) const {}
   virtual void       unpack(BlockState &, unsigned int /*cell*/, const double       */*values*/) const {}
 
-  /// After all cells were unpacked on a new mesh: the law brings points of the @p changed ones, new or moved, back to admissible states; hourglass forces
-  /// of these cells, stored energy and stable step are taken anew from displacement, velocity and stress. No time passes.
+  /// After all cells were unpacked on a new mesh: the law brings points of the @p changed ones, new or moved, back to admissible states; viscous hourglass
+  /// forces of these cells, stored energy and stable step are taken anew from displacement, velocity and stress. No time passes.
   virtual void restore(const State<dim> &, BlockState &, const std::vector<unsigned int> & /*changed*/) const {}
 
   /// A quantity of each cell of the block; the others are left alone.

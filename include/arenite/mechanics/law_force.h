@@ -168,14 +168,16 @@ public:
             const BatchCopy kept(packing, record, batch);
             const Number    loss = settle(batch, operators, motion, record);
             if constexpr (Element::has_hourglass_control)
-              {
-                Amplitudes force, dq;
-                hourglass_forces(batch, operators, u, H, h, step, Number(law->density()) / motion[0].J, state.dt_last,
-                                 record, force, dq);
-                for (int i = 0; i < dim; ++i)
-                  for (int a = 0; a < Element::n_patterns; ++a)
-                    store<Number>(force[i][a], amplitude(record, batch, i, a));
-              }
+              if (viscous_hourglass)
+                {
+                  Amplitudes force, dq;
+                  operators.patterns(step.u, step.H, dq);
+                  viscous_hourglass_forces(batch, operators, H, h, dq, Number(law->density()) / motion[0].J,
+                                           state.dt_last, points, force);
+                  for (int i = 0; i < dim; ++i)
+                    for (int a = 0; a < Element::n_patterns; ++a)
+                      store<Number>(force[i][a], amplitude(record, batch, i, a));
+                }
             for (int l = 0; l < W; ++l)
               if (!first[l])
                 kept.give_back(record, batch * W + l);
@@ -418,7 +420,8 @@ private:
   /// What the law sees of a batch: the stored arrays, and those of the kernel.
   PointBatch batch_of_points(PointData &points, const unsigned int batch, const double dt,
                              const Number (&strain)[n_points][6], const Number (&density_old)[n_points],
-                             const Number (&density)[n_points], Number (&dissipated)[n_points]) const
+                             const Number (&density)[n_points], Number (&dissipated)[n_points],
+                             Number *stored_by_volume = nullptr) const
   {
     const std::size_t first = std::size_t(batch) * n_points;
     PointBatch        result;
@@ -432,6 +435,8 @@ private:
     result.wave_speed  = &points.wave_speed[first * W];
     result.stored      = &points.stored[first * W];
     result.dissipated  = reinterpret_cast<double *>(dissipated);
+
+    result.stored_by_volume = reinterpret_cast<double *>(stored_by_volume);
     return result;
   }
 
@@ -480,19 +485,32 @@ private:
       motion[q].set_volume(J_old / volume, J / volume, finite);
   }
 
-  /// Forces on the patterns. Stiffness: k = coefficient rho c^2 s, with s the part of the elastic deviatoric stress that the point carries,
+  /// Viscous forces on the patterns, for their increments @p dq over the step.
+  void viscous_hourglass_forces(unsigned int batch, const Operators &operators, const Number (&H)[n_points][dim][dim],
+                                const Number (&h)[n_points], const Amplitudes &dq, const Number &density,
+                                double dt_last, const PointData &points, Amplitudes &force) const;
+
+  /// Stiffness of the patterns: k = coefficient rho c^2 s, with s the part of the elastic deviatoric stress that the point carries,
   /// |s|/(2 G |e|), so that soil that flows is not held by its hourglass control; at least a hundredth.
-  void hourglass_forces(unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
-                        const Number (&H)[n_points][dim][dim], const Number (&h)[n_points], const Increment &step,
-                        const Number &density, double dt_last, const BlockState &record, Amplitudes &force,
-                        Amplitudes &dq) const;
+  Number hourglass_stiffness(unsigned int batch, const Operators &operators, const Number (&H)[n_points][dim][dim],
+                             const Number (&h)[n_points], const Number &density, const PointData &points) const;
 
-  /// Hourglass forces at the end of the step. @return their work in it
-  Number advance_hourglass(unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
-                           const Number (&H)[n_points][dim][dim], const Number (&h)[n_points], const Increment &step,
-                           const Number &density, double dt_last, BlockState &record) const;
+  /// Elastic forces on the patterns. The stiffness of soil follows its state, so they come from increments,
+  ///
+  ///   Q = min(1, k/k_n) R Q_n + k (q - R q_n),
+  ///
+  /// with the rotation R of the step: stiffness that grows leaves the force as it is, stiffness that goes takes force with it. Neither gives
+  /// energy away, which k q and the sum of k dq do; both are k q as long as k does not grow.
+  void elastic_hourglass_forces(unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
+                                const Number (&H)[n_points][dim][dim], const Motion &motion, const Amplitudes &dq,
+                                const Number &old_stiffness, const Number &stiffness, const BlockState &record,
+                                Amplitudes &force) const;
 
-  double *amplitude(BlockState &record, const unsigned int batch, const int i, const int a) const
+  /// Hourglass forces of the end of the step take the place of those of its beginning. @return the work of both on @p dq
+  Number advance_hourglass(unsigned int batch, const Amplitudes &dq, const Amplitudes &force, BlockState &record) const;
+
+  template <typename Record>
+  auto *amplitude(Record &record, const unsigned int batch, const int i, const int a) const
   {
     return &record.amplitude[(std::size_t(batch) * n_amplitudes + i * Element::n_patterns + a) * W];
   }
@@ -563,7 +581,8 @@ private:
   std::unique_ptr<InternalForce<dim>> elastic, as_fluid; ///< for mass, eigenvalues and forces without points
   const VectorType                   *positions = nullptr;
   CellBatches<dim, W>                 batches;
-  const PointPacking packing{n_points, W, n_history, Element::has_hourglass_control ? n_amplitudes : 0};
+  const PointPacking                  packing{n_points, W, n_history, Element::has_hourglass_control ? n_amplitudes : 0,
+                             !viscous_hourglass};
 };
 } // namespace Arenite
 

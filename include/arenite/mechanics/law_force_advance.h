@@ -22,18 +22,33 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
     take_mean_volumes(operators, motion);
 
   // viscous hourglass forces heat like the bulk viscosity: with their work lost a blast of gas would fall behind
-  Number hourglass = Number(0.), hourglass_heat = Number(0.); // J, J/kg
+  Number     hourglass = Number(0.), hourglass_heat = Number(0.), old_stiffness = Number(0.); // J, J/kg, N/m
+  Amplitudes dq, Q;
   if constexpr (Element::has_hourglass_control)
-    if (viscous_hourglass)
-      {
-        hourglass =
-          advance_hourglass(batch, operators, u, H, h, step, Number(law->density()) / motion[0].J, dt_last, record);
-        hourglass_heat = hourglass / (Number(law->density()) * operators.weight[0]);
-      }
+    {
+      operators.patterns(step.u, step.H, dq);
+      if (viscous_hourglass)
+        {
+          viscous_hourglass_forces(batch, operators, H, h, dq, Number(law->density()) / motion[0].J, dt_last, points,
+                                   Q);
+          hourglass      = advance_hourglass(batch, dq, Q, record);
+          hourglass_heat = hourglass / (Number(law->density()) * operators.weight[0]);
+        }
+      else
+        {
+          Number H_old[n_points][dim][dim];
+          for (int i = 0; i < dim; ++i)
+            for (int j = 0; j < dim; ++j)
+              H_old[0][i][j] = H[0][i][j] - step.H[0][i][j];
+          const Number h_old[n_points] = {h[0] - step.h[0]};
+          old_stiffness =
+            hourglass_stiffness(batch, operators, H_old, h_old, Number(law->density()) / motion[0].J_old, points);
+        }
+    }
 
   // kinematics, viscosity
   Number strain[n_points][6], density_old[n_points], density[n_points], heat[n_points], stored_old[n_points],
-    dissipated[n_points], viscous_work[n_points], size[n_points]; // |A|^2
+    dissipated[n_points], by_volume[n_points], viscous_work[n_points], size[n_points]; // |A|^2
   const double rho_0 = law->density(), b1 = element.linear_viscosity, b2 = element.quadratic_viscosity;
   Number       largest_rate = Number(0.), viscosity[n_points];
   for (int q = 0; q < n_points; ++q)
@@ -82,7 +97,7 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
         }
     }
 
-  PointBatch law_batch = batch_of_points(points, batch, dt, strain, density_old, density, dissipated);
+  PointBatch law_batch = batch_of_points(points, batch, dt, strain, density_old, density, dissipated, by_volume);
   law_batch.heat       = reinterpret_cast<const double *>(heat);
   {
     const Stopwatch watch(points.is_timed ? &points.law_seconds : nullptr);
@@ -105,7 +120,9 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
       loss += w * (with_volume ? Number(Number(0.5) * (J + J_old) * dissipated[q]) : dissipated[q]);
       viscous += w * viscous_work[q];
       volume += w;
-      if (finite && per_present_volume)
+      if (!per_present_volume)
+        volume_change -= w * Number(0.5) * (J + J_old) * by_volume[q];
+      else if (finite)
         volume_change -= w * Number(0.5) * (stored_old[q] + stored) * (J - J_old);
 
       const Number g = shape * size[q], nu = viscosity[q] + Number(law->viscosity_time()) * c * c, f = g * c * c;
@@ -130,9 +147,13 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
   store<Number>(inverse_step, &points.inverse_step[batch * W]);
   store<Number>(loss / volume * Number(dt_last > 0. ? 1. / dt_last : 0.), &points.dissipation[batch * W]);
   if constexpr (Element::has_hourglass_control)
-    if (!viscous_hourglass) // the stiffness form follows the stress that the law gives
-      hourglass = advance_hourglass(batch, operators, u, H, h, step, density[0], dt_last, record);
-  (void)u;
+    if (!viscous_hourglass) // the stiffness form follows the state that the law gives
+      {
+        elastic_hourglass_forces(batch, operators, u, H, motion[0], dq, old_stiffness,
+                                 hourglass_stiffness(batch, operators, H, h, density[0], points), record, Q);
+        hourglass = advance_hourglass(batch, dq, Q, record);
+      }
+  (void)u, (void)old_stiffness, (void)dq, (void)Q;
   for (int l = 0; l < batches.active[batch]; ++l)
     {
       points.stored_energy += lane(energy, l);
@@ -145,41 +166,68 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
 }
 
 template <typename Element, int W>
-void LawForce<Element, W>::hourglass_forces(const unsigned int batch, const Operators &operators,
-                                            const Number (&u)[dim][n_nodes], const Number (&H)[n_points][dim][dim],
-                                            const Number (&h)[n_points], const Increment &step, const Number &density,
-                                            const double dt_last, const BlockState &record, Amplitudes &force,
-                                            Amplitudes &dq) const
+void LawForce<Element, W>::viscous_hourglass_forces(const unsigned int batch, const Operators &operators,
+                                                    const Number (&H)[n_points][dim][dim], const Number (&h)[n_points],
+                                                    const Amplitudes &dq, const Number &density, const double dt_last,
+                                                    const PointData &points, Amplitudes &force) const
 {
-  Amplitudes   q;
-  const Number c = load<Number>(&record.points.wave_speed[batch * W]);
-  operators.patterns(u, H, q);
-  operators.patterns(step.u, step.H, dq);
-  const Number coefficient = Number(element.hourglass_coefficient) * density;
-  Number       scale       = Number(0.);
-  if (viscous_hourglass)
-    {
-      Number N[dim][dim]; // of the present cell: an expanded one has larger faces
-      Shape::turned_areas(H[0], h[0], n_hoop, finite, N);
-      scale = coefficient * c * operators.pattern_viscosity(N) * Number(dt_last > 0. ? 1. / dt_last : 0.);
-    }
-  else
-    scale = coefficient * c * c * operators.pattern_stiffness() * secant_ratio(batch, H, h, record.points);
+  Number N[dim][dim]; // of the present cell: an expanded one has larger faces
+  Shape::turned_areas(H[0], h[0], n_hoop, finite, N);
+  const Number viscosity = Number(element.hourglass_coefficient) * density *
+                           load<Number>(&points.wave_speed[batch * W]) * operators.pattern_viscosity(N) *
+                           Number(dt_last > 0. ? 1. / dt_last : 0.);
   for (int i = 0; i < dim; ++i)
     for (int a = 0; a < Element::n_patterns; ++a)
-      force[i][a] = scale * (viscous_hourglass ? dq[i][a] : q[i][a]);
+      force[i][a] = viscosity * dq[i][a];
 }
 
 template <typename Element, int W>
-typename LawForce<Element, W>::Number LawForce<Element, W>::advance_hourglass(
-  const unsigned int batch, const Operators &operators, const Number (&u)[dim][n_nodes],
-  const Number (&H)[n_points][dim][dim], const Number (&h)[n_points], const Increment &step, const Number &density,
-  const double dt_last, BlockState &record) const
+typename LawForce<Element, W>::Number LawForce<Element, W>::hourglass_stiffness(
+  const unsigned int batch, const Operators &operators, const Number (&H)[n_points][dim][dim],
+  const Number (&h)[n_points], const Number &density, const PointData &points) const
+{
+  const Number c = load<Number>(&points.wave_speed[batch * W]);
+  return Number(element.hourglass_coefficient) * density * c * c * operators.pattern_stiffness() *
+         secant_ratio(batch, H, h, points);
+}
+
+template <typename Element, int W>
+void LawForce<Element, W>::elastic_hourglass_forces(const unsigned int batch, const Operators &operators,
+                                                    const Number (&u)[dim][n_nodes],
+                                                    const Number (&H)[n_points][dim][dim], const Motion &motion,
+                                                    const Amplitudes &dq, const Number &old_stiffness,
+                                                    const Number &stiffness, const BlockState &record,
+                                                    Amplitudes &force) const
+{
+  // forces and amplitudes at the beginning of the step, which take part in its rotation
+  Amplitudes q, start;
+  operators.patterns(u, H, q);
+  const Number kept = Arenite::min<Number>(
+    Number(1.), Number(stiffness / Arenite::max<Number>(old_stiffness, Number(std::numeric_limits<double>::min()))));
+  for (int i = 0; i < dim; ++i)
+    for (int a = 0; a < Element::n_patterns; ++a)
+      {
+        start[i][a] = q[i][a] - dq[i][a];
+        force[i][a] = kept * load<Number>(amplitude(record, batch, i, a));
+      }
+  if (finite)
+    {
+      motion.turn_vectors(start);
+      motion.turn_vectors(force);
+    }
+  for (int i = 0; i < dim; ++i)
+    for (int a = 0; a < Element::n_patterns; ++a)
+      force[i][a] += stiffness * (q[i][a] - start[i][a]);
+}
+
+template <typename Element, int W>
+typename LawForce<Element, W>::Number LawForce<Element, W>::advance_hourglass(const unsigned int batch,
+                                                                              const Amplitudes  &dq,
+                                                                              const Amplitudes  &force,
+                                                                              BlockState        &record) const
 {
   PointData &points = record.points;
-  Amplitudes force, dq;
-  hourglass_forces(batch, operators, u, H, h, step, density, dt_last, record, force, dq);
-  Number work = Number(0.);
+  Number     work   = Number(0.);
   for (int i = 0; i < dim; ++i)
     for (int a = 0; a < Element::n_patterns; ++a)
       {

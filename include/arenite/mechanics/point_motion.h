@@ -150,6 +150,24 @@ struct PointMotion
       (void)a;
   }
 
+  /// a <- Q a for the vectors in the columns of @p a.
+  template <int n>
+  ARENITE_INLINE void turn_vectors(V (&a)[dim][n]) const
+  {
+    for (int k = 0; k < n; ++k)
+      {
+        V turned[dim];
+        for (int i = 0; i < dim; ++i)
+          {
+            turned[i] = Q[i][0] * a[0][k];
+            for (int j = 1; j < dim; ++j)
+              turned[i] += Q[i][j] * a[j][k];
+          }
+        for (int i = 0; i < dim; ++i)
+          a[i][k] = turned[i];
+      }
+  }
+
   /// Component of SymTensor.
   static constexpr int index(const int i, const int j) { return i == j ? i : 2 + i + j; }
 

@@ -12,17 +12,28 @@ struct PointPacking
 {
   int          n_points, n_lanes;
   unsigned int n_history;
-  int          n_amplitudes; ///< hourglass forces of a cell; 0: none
+  int          n_amplitudes;    ///< hourglass forces of a cell; 0: none
+  bool         amplitudes_last; ///< they are elastic and come from increments, so that nothing else says what they are
 
   unsigned int n_values() const { return 6 + n_history + 3; }
 
   std::vector<CellRecord::OfCell> of_cell(const int dim) const
   {
-    // frequency ~ 1/h^2, step ~ h, the ratio of shapes; hourglass forces are taken anew
+    // frequency ~ 1/h^2, step ~ h, the ratio of shapes
     std::vector<CellRecord::OfCell> result{{4., false, 0.25}, {2., false, 0.5}, {1., false, 1.}};
     if (n_amplitudes > 0)
       result.push_back({1. / (1 << dim), true, 1.});
-    result.resize(result.size() + n_amplitudes, {0., false, 0.});
+    if (!amplitudes_last) // viscous ones are taken anew
+      result.resize(result.size() + n_amplitudes, {0., false, 0.});
+    else
+      for (int k = 0; k < n_amplitudes; ++k)
+        {
+          // In a child a product of n coordinates of the unit cell has 2^-n of its amplitude, the stiffness 2^-(dim - 2): the child takes its
+          // share of the force. Smooth fields have the same shares, so that the cell has the sum again.
+          const int    n     = dim == 3 && k % 4 == 3 ? 3 : 2;
+          const double share = 1. / (1 << (n + dim - 2));
+          result.push_back({share, true, 1. / (share * (1 << dim))});
+        }
     return result;
   }
 
