@@ -73,13 +73,15 @@ class Search:
                 bad, self.beyond = middle, verdict
         if self.beyond.startswith("0:"):  # wrong without a word up to where?
             for k in range(1, 20):
-                factor = bad * 1.15 ** k
-                if factor > factors[-1]:
-                    self.beyond += f", no alarm up to {common.text(factors[-1])}"
+                factor = min(bad * 1.15 ** k, factors[-1])
+                if factor == bad:
                     break
                 fine, verdict = judge(factor)
                 if not verdict.startswith("0:"):
                     self.beyond += f"; from {common.text(factor)} {verdict}"
+                    break
+                if factor == factors[-1]:
+                    self.beyond += f", no alarm up to {common.text(factor)}"
                     break
 
 
