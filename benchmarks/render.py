@@ -16,7 +16,7 @@ import argparse, os, shutil, sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "pressure": "Pa", "von_mises_stress": "Pa"}
+UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "pressure": "Pa", "von_mises_stress": "Pa", "density": "kg/m³"}
 HEAT = ["f2f2f0", "fee8a0", "fec44f", "fe9929", "ec7014", "cc4c02", "8c2d04", "4a1502"]  # light: edges stay visible
 COOL_WARM = ["3b4cc0", "6788ee", "9abbff", "c9d7f0", "edd1c2", "f7a889", "e26952", "b40426"]
 
@@ -42,6 +42,7 @@ def arguments():
     parser.add_argument("--size", type=int, nargs=2, default=(1200, 900), metavar=("WIDTH", "HEIGHT"), help="pixels")
     parser.add_argument("--time", type=float, nargs="+", help="with a .pvd: the picture nearest to this time [s]; several side by side")
     parser.add_argument("--label", help="text of the colour scale (default: field, component and unit)")
+    parser.add_argument("--small", action="store_true", help="store 256 colours only, a third of the file (needs python3-pil)")
     return parser.parse_args()
 
 
@@ -50,8 +51,10 @@ try:
     import numpy as np
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+    if options.small:
+        from PIL import Image
 except ImportError as error:
-    stop(f"needs the Python module '{error.name}' (Debian: apt-get install python3-vtk9 python3-numpy, run with /usr/bin/python3)")
+    stop(f"needs the Python module '{error.name}' (Debian: apt-get install python3-vtk9 python3-numpy python3-pil, run with /usr/bin/python3)")
 
 if not os.environ.get("DISPLAY"):
     if not shutil.which("xvfb-run"):
@@ -172,6 +175,8 @@ def surface(grid):
     for order, ids in cells_by_order(grid):
         faces = outer_faces(ids, x)
         fine = int(np.clip(np.sqrt(4e5 / max(len(faces), 1)), order, 12))
+        # Pieces of edges: short ones lose pixels where they meet.
+        piece = fine if order == 1 else fine // 4 if len(faces) > 200 and fine % 4 == 0 else 1
         value, slope = lagrange(order, np.linspace(0., 1., fine + 1))
         p = moved[faces]
         points.append(np.einsum("ai,bj,fijc->fabc", value, value, p).reshape(-1, 3))
@@ -184,6 +189,7 @@ def surface(grid):
         n += number.size
         quads.append(np.stack([number[:, :-1, :-1], number[:, 1:, :-1], number[:, 1:, 1:], number[:, :-1, 1:]], -1).reshape(-1, 4))
         for side in (number[:, 0], number[:, -1], number[:, :, 0], number[:, :, -1]):
+            side = side[:, ::piece]
             lines.append(np.stack([side[:, :-1], side[:, 1:]], -1).reshape(-1, 2))
 
     def poly_data(cells):
@@ -354,6 +360,8 @@ def main():
     writer.Write()
     if writer.GetErrorCode() or not options.picture.is_file():
         stop(f"{options.picture} cannot be written")
+    if options.small:
+        Image.open(options.picture).convert("RGB").quantize(256, dither=0).save(options.picture, optimize=True)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 """Runs that may fail, and the largest step with which a scene keeps its error.
 
-    tried = Attempt(study, "spall.prm", settings)           # tried.code, tried.run or None, tried.said
-    row   = limits_of(study, "spall.prm", settings, error)  # error(run) is relative
+    tried  = Attempt(study, "spall.prm", settings)           # tried.code, tried.run or None, tried.said
+    row    = limits_of(study, "spall.prm", settings, error, tried.run)    # error(run) is relative
+    search = Search(study, "spall.prm", settings, error, 0.02, COURANT, 1., [.9, 1.1, 1.3, 1.6, 2.])   # search.good, search.beyond
 """
 import math, re, subprocess
 import common
@@ -22,11 +23,11 @@ def series(run, name, file="receivers-points.csv"):
 class Attempt:
     """A run, or how it ended. said: the reason that the program gave; a run of exit code 0 with a number that is none says so, too."""
 
-    def __init__(self, study, scene, settings):
+    def __init__(self, study, scene, settings, receivers="receivers-points.csv"):
         self.code, self.run, self.said, self.message = 0, None, "", ""
         try:
             self.run = study.run(scene, settings, repeat=1, timeout=600)
-            series(self.run, "t [s]"), series(self.run, "t [s]", "statistics.csv")
+            series(self.run, "t [s]", receivers), series(self.run, "t [s]", "statistics.csv")
             if not all(numpy.isfinite(values).all() for table in self.run.tables.values() for values in table.values()):
                 self.said = "exit code 0 with values that are not finite"
         except subprocess.TimeoutExpired:
@@ -41,43 +42,46 @@ class Attempt:
 
 
 class Search:
-    """The largest factor of an entry, from the first of `factors` on, with which the error stays below 1.1 times that of the automatic
-    step plus 1 %. good: that factor, energy:
-    the energy error there; beyond: what happens 3 % above it, exit code first."""
+    """The largest factor of an entry, from the first of `factors` on, with which the error is at most `allowed`. good: that factor, energy: the energy
+    error there; beyond: what happens at most 3 % above it, exit code first, and up to where a wrong result goes unnoticed. words(run) names the error."""
 
-    def __init__(self, study, scene, settings, error, allowed, entry, unit, factors):
+    def __init__(self, study, scene, settings, error, allowed, entry, unit, factors, words=None, receivers="receivers-points.csv"):
+        name = words or (lambda run: f"error {common.text(abs(error(run)))}")
+
         def judge(factor):
-            tried = Attempt(study, scene, {**settings, entry: f"{factor * unit:.9g}"})
+            tried = Attempt(study, scene, {**settings, entry: f"{factor * unit:.9g}"}, receivers)
             if not tried.good:
                 return False, f"{tried.code}: {tried.said}"
             found = abs(error(tried.run))
             if found <= allowed:
                 self.energy = tried.run["energy_error"]
-            return found <= allowed, f"0: error {common.text(found)}"  # not so for NaN
+            return found <= allowed, f"0: {name(tried.run)}"  # not so for NaN
 
         self.good, self.energy, self.beyond, bad = None, math.nan, "", None
         for factor in factors:
-            fine, words = judge(factor)
+            fine, verdict = judge(factor)
             if not fine:
-                bad, self.beyond = factor, words
+                bad, self.beyond = factor, verdict
                 break
             self.good = factor
         while self.good and bad and bad > 1.03 * self.good:
             middle = math.sqrt(self.good * bad)
-            fine, words = judge(middle)
+            fine, verdict = judge(middle)
             if fine:
                 self.good = middle
             else:
-                bad, self.beyond = middle, words
+                bad, self.beyond = middle, verdict
         if self.beyond.startswith("0:"):  # wrong without a word up to where?
             for k in range(1, 20):
-                factor = bad * 1.15 ** k
-                if factor > factors[-1]:
-                    self.beyond += f", no alarm up to {common.text(factors[-1])}"
+                factor = min(bad * 1.15 ** k, factors[-1])
+                if factor == bad:
                     break
-                fine, words = judge(factor)
-                if not words.startswith("0:"):
-                    self.beyond += f"; from {common.text(factor)} {words}"
+                fine, verdict = judge(factor)
+                if not verdict.startswith("0:"):
+                    self.beyond += f"; from {common.text(factor)} {verdict}"
+                    break
+                if factor == factors[-1]:
+                    self.beyond += f", no alarm up to {common.text(factor)}"
                     break
 
 
