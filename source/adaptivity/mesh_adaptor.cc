@@ -1,3 +1,4 @@
+#include <arenite/adaptivity/cell_transport.h>
 #include <arenite/adaptivity/field_transfer.h>
 #include <arenite/adaptivity/mesh_adaptor.h>
 #include <arenite/adaptivity/mesh_flags.h>
@@ -7,9 +8,6 @@
 #include <arenite/base/state_archive.h>
 
 #include <deal.II/base/bounding_box.h>
-#include <deal.II/distributed/cell_data_transfer.templates.h>
-#include <deal.II/numerics/adaptation_strategies.h>
-#include <deal.II/numerics/cell_data_transfer.templates.h>
 
 #include <algorithm>
 #include <cmath>
@@ -277,63 +275,6 @@ void MeshAdaptor<dim>::check_size(const Triangulation &triangulation, const doub
                      " cells. Raise 'Adaptivity / Largest number of cells', raise 'Refine above' or use fewer levels.");
 }
 
-namespace
-{
-/// One number per active cell: children take that of their parent, a parent the largest of its children.
-template <int dim>
-class RatioTransfer
-{
-public:
-  explicit RatioTransfer(ParallelTriangulation<dim> &triangulation)
-    : triangulation(triangulation)
-    , transfer(make(triangulation))
-  {}
-
-  void prepare(const Vector<double> &values, const Discretization<dim> &discretization)
-  {
-    before.reinit(values.size());
-    for (const auto &cell : discretization.cells())
-      before[cell->active_cell_index()] = values[cell->active_cell_index()];
-    if constexpr (dim == 1)
-      {
-        sum_over_processes(before, discretization.communicator);
-        transfer.prepare_for_coarsening_and_refinement();
-      }
-    else
-      transfer.prepare_for_coarsening_and_refinement(before);
-  }
-
-  void unpack(Vector<double> &values)
-  {
-    values.reinit(triangulation.n_active_cells());
-    if constexpr (dim == 1)
-      transfer.unpack(before, values);
-    else
-      transfer.unpack(values);
-  }
-
-private:
-  using Transfer = std::conditional_t<dim == 1, CellDataTransfer<dim, dim, Vector<double>>,
-                                      parallel::distributed::CellDataTransfer<dim, dim, Vector<double>>>;
-
-  static Transfer make(ParallelTriangulation<dim> &triangulation)
-  {
-    const auto largest = [](const typename dealii::Triangulation<dim>::cell_iterator &,
-                            const std::vector<double> &children) {
-      return *std::max_element(children.begin(), children.end());
-    };
-    if constexpr (dim == 1)
-      return Transfer(triangulation, &AdaptationStrategies::Refinement::preserve<dim, dim, double>, largest);
-    else
-      return Transfer(triangulation, false, &AdaptationStrategies::Refinement::preserve<dim, dim, double>, largest);
-  }
-
-  ParallelTriangulation<dim> &triangulation;
-  Vector<double>              before;
-  Transfer                    transfer;
-};
-} // namespace
-
 template <int dim>
 void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dynamics, State<dim> &state,
                                StableTimeStep<dim> &time_step)
@@ -354,9 +295,23 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
         transfer.add(consistent);
       }
   transfer.prepare();
-  RatioTransfer<dim> ratios(triangulation), marks(triangulation);
-  ratios.prepare(time_step.ratio, discretization);
-  marks.prepare(in_front, discretization);
+  using Cell    = typename CellTransport<dim>::Cell;
+  using Numbers = typename CellTransport<dim>::Numbers;
+  // children take the numbers of their parent, a parent the largest of its children
+  CellTransport<dim> ratios_and_marks(
+    triangulation, discretization,
+    [&](const Cell &cell, bool) {
+      const unsigned int index = cell->active_cell_index();
+      return Numbers{time_step.ratio[index], in_front[index]};
+    },
+    [](const std::vector<Numbers> &children) {
+      Numbers largest = children[0];
+      for (const Numbers &child : children)
+        for (std::size_t k = 0; k < largest.size(); ++k)
+          largest[k] = std::max(largest[k], child[k]);
+      return largest;
+    },
+    true);
   PointTransfer<dim>    points(triangulation, dynamics, state);
   MomentumTransfer<dim> momentum(triangulation, dynamics, velocity);
   triangulation.execute_coarsening_and_refinement();
@@ -387,8 +342,20 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
   zero_at_hanging_nodes(discretization, state.half_velocity);
 
   room = layers;
-  ratios.unpack(time_step.ratio);
-  marks.unpack(in_front);
+  for (Vector<double> *numbers : {&time_step.ratio, &in_front})
+    numbers->reinit(triangulation.n_active_cells());
+  ratios_and_marks.unpack(
+    [&](const Cell &cell, const Numbers &numbers, const typename CellTransport<dim>::Change change) {
+      const auto put = [&](const Cell &active) {
+        time_step.ratio[active->active_cell_index()] = numbers[0];
+        in_front[active->active_cell_index()]        = numbers[1];
+      };
+      if (change != CellTransport<dim>::Change::halved)
+        return put(cell);
+      for (unsigned int child = 0; child < cell->n_children(); ++child)
+        if (cell->child(child)->is_locally_owned())
+          put(cell->child(child));
+    });
 }
 
 template <int dim>

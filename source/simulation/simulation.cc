@@ -224,6 +224,11 @@ void Simulation<dim>::describe() const
     text << " + up to " << scene.adaptor.max_passes();
   text << ", " << ranks << (ranks == 1 ? " process" : " processes") << '\n'
        << "Unknowns   " << unknowns() << ", " << scene.element.type << " of degree " << scene.element.degree << '\n';
+  const auto manifolds = triangulation.get_manifold_ids();
+  if (scene.adaptor.active() && scene.element.degree == 1 && !scene.mesh.refine_geometry &&
+      std::any_of(manifolds.begin(), manifolds.end(), [](const auto id) { return id != numbers::flat_manifold_id; }))
+    text << "Geometry   new nodes stay on the flat faces of the first mesh; 'Mesh / Refine geometry' puts them on "
+            "curved surfaces\n";
   if (ranks > 1)
     text << "Processes  " << describe_partition(discretization, cost_of_cells) << '\n';
   for (unsigned int b = 0; b < scene.blocks.size(); ++b)
