@@ -122,7 +122,8 @@ BOOST_AUTO_TEST_CASE(oblique_edge, *label("parallel"))
       BOOST_TEST(refined.imbalance < 1e-3);
       BOOST_TEST(refined.transverse < 0.05);
       BOOST_TEST(refined.velocity < 0.06);
-      BOOST_TEST(refined.stress < 1.1 * plain.stress);
+      // one point: 1.115, with forces k q, which grow with the pressure without work, 1.05
+      BOOST_TEST(refined.stress < (degree == 0 ? 1.15 : 1.) * plain.stress);
     }
 }
 

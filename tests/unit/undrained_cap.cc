@@ -166,9 +166,9 @@ BOOST_AUTO_TEST_CASE(energy_closes)
           by_volume /= work;
         }
       BOOST_TEST_MESSAGE(block << ": " << error[0] << ", " << error[1] << "; by volume " << by_volume);
-      BOOST_TEST(error[1] < 1e-4);
-      BOOST_TEST(error[1] < 0.3 * error[0]);
-      BOOST_TEST(by_volume > 10. * error[1]);
+      BOOST_TEST(error[1] < 1e-6);
+      BOOST_TEST(error[1] < 0.27 * error[0]);
+      BOOST_TEST(by_volume > 100. * error[1]);
     }
 }
 
