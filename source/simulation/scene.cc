@@ -150,7 +150,7 @@ void Scene<dim>::finalize(Parameters &parameters)
   initial_energy.finalize(parameters);
   time_step.finalize(parameters);
   adaptor.finalize(parameters, mesh, *mesh.geometry);
-  receivers.finalize(parameters);
+  receivers.finalize(parameters, *mesh.geometry);
   pictures.finalize(parameters);
   statistics.finalize(parameters);
 
@@ -193,6 +193,9 @@ void Scene<dim>::refuse_motion(const Parameters &parameters) const
                           "the dashpots of '" + load->name +
                             "' hold nothing at rest. Fix that boundary, or begin with 'State = rest' under a "
                             "geostatic stress that holds it");
+  if (is_static() && receivers.has_balances())
+    parameters.refuse("Receivers",
+                      "surfaces and boxes follow the steps of a motion, and have no meaning with 'Analysis = static'");
   if (is_static() && initial_state != "rest")
     parameters.refuse("Initial conditions/State", reason);
 }

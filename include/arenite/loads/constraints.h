@@ -40,6 +40,13 @@ public:
   void project(VectorType &) const;
 
   /// At each owned node that is held in some direction, by planes or by a prescribed motion, the projector onto those in which it is free.
+  /// Sum of the forces that the last apply() put on the nodes of this process.
+  const dealii::Tensor<1, dim> &reaction() const { return whole_reaction; }
+
+  /// The same by boundary. What several boundaries hold at a node they share like springs side by side, of a stiffness that goes with
+  /// their area there: planes along their normals, prescribed motions along their direction, others in all directions.
+  void add_resultants(const Discretization<dim> &, Resultants<dim> &);
+
   /// Ascending nodes.
   std::vector<NodeValue<dealii::SymmetricTensor<2, dim>>> freedom() const;
 
@@ -83,6 +90,22 @@ private:
   std::vector<std::unique_ptr<PrescribedBoundary>> prescribed;
   Projectors                                       projectors;
   std::vector<PrescribedNode>                      prescribed_nodes;
+  /// What a boundary takes of the reaction of a node.
+  struct Part
+  {
+    unsigned int               node; ///< position in held_nodes
+    dealii::types::boundary_id boundary;
+    dealii::Tensor<2, dim>     share;
+    dealii::Tensor<1, dim>     normal;
+  };
+
   std::vector<std::pair<PrescribedNode, dealii::Point<dim>>> exact_nodes;
+  void make_parts(const Discretization<dim> &);
 };
 } // namespace Arenite
+  dealii::Tensor<1, dim>                                     whole_reaction;
+  std::vector<dealii::Tensor<1, dim>>                        plane_reactions; ///< at the nodes of projectors
+  std::vector<Part>                                          parts;
+  std::vector<unsigned int>                                  held_nodes; ///< with parts, ascending
+  std::vector<dealii::Tensor<1, dim>>                        held_reactions;
+  bool                                                       knows_parts = false;
