@@ -32,7 +32,8 @@ void AbsorbingBoundary<dim>::reinit(const Discretization<dim> &discretization, c
 {
   make_dashpots(discretization, material);
   springs.clear();
-  if (memory.get_partitioner() != discretization.node_partitioner) // a new mesh, whose values come by set_nodal_state()
+  if (memory.get_partitioner() !=
+      discretization.node_partitioner) // a new mesh, whose values come by set_nodal_states()
     memory.reinit(discretization.node_partitioner);
   if (spherical())
     make_springs(discretization, material);
@@ -117,7 +118,6 @@ double AbsorbingBoundary<dim>::power(const VectorType &half_velocity) const
   return sum;
 }
 
-template <int dim>
 /// On a sphere; it is rarely made of more boundaries than one, and the first has to stand for all of them.
 template <int dim>
 void AbsorbingBoundary<dim>::add_resultants(Resultants<dim> &sums) const
@@ -129,6 +129,7 @@ void AbsorbingBoundary<dim>::add_resultants(Resultants<dim> &sums) const
     sum += {s.force * s.normal, s.force};
 }
 
+template <int dim>
 void AbsorbingBoundary<dim>::finish_step(const VectorType &half_velocity, const double dt)
 {
   for (const auto &s : springs)
@@ -143,7 +144,15 @@ void AbsorbingBoundary<dim>::finish_step(const VectorType &half_velocity, const 
 }
 
 template <int dim>
-void AbsorbingBoundary<dim>::set_nodal_state(const VectorType &values)
+std::vector<const VectorType *> AbsorbingBoundary<dim>::nodal_states() const
+{
+  if (spherical())
+    return {&memory};
+  return {};
+}
+
+template <int dim>
+void AbsorbingBoundary<dim>::set_nodal_states(const std::vector<VectorType> &values)
 {
   memory.reinit(values.front().get_partitioner());
   std::copy_n(values.front().begin(), values.front().locally_owned_size(), memory.begin());

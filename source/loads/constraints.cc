@@ -126,12 +126,12 @@ double integral(const TimeHistory &velocity, const double from, const double to)
 
 /// Projector onto the directions that no face normal in @p normals (with trace 1) constrains.
 template <int dim>
-SymmetricTensor<2, dim> free_directions(const SymmetricTensor<2, dim> &normals)
+SymmetricTensor<2, dim> free_directions(const SymmetricTensor<2, dim> &normals, const double threshold = 1e-8)
 {
   SymmetricTensor<2, dim> P = unit_symmetric_tensor<dim>();
   // planes that meet at an angle give eigenvalues of the order of one, the noise of flat faces 1e-30
   for (const auto &[value, m] : eigenvectors(normals))
-    if (value > 1e-8)
+    if (value > threshold)
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = i; j < dim; ++j)
           P[i][j] -= m[i] * m[j];
@@ -155,9 +155,19 @@ void Constraints<dim>::reinit(const Discretization<dim> &discretization)
           P[0][c] = 0.;
       }
 
+  // the facets of a curved surface have one normal at a node, faces that meet at more than about 25 degrees several
+  for (const NodeFaces<dim> &faces : faces_of_nodes(discretization, held, false))
+    {
+      auto                         &P = free.emplace(faces.node, unit_symmetric_tensor<dim>()).first->second;
+      const SymmetricTensor<2, dim> also =
+        held_fully ? SymmetricTensor<2, dim>() : free_directions<dim>(faces.dyad / faces.size, 0.05);
+      P = free_directions<dim>(unit_symmetric_tensor<dim>() - 0.5 * (P + also));
+    }
+
   exact_nodes.clear();
   for (const NodeFaces<dim> &faces : faces_of_nodes(discretization, exact, false))
     {
+      const unsigned int node = faces.node;
       if (dim == 1 && discretization.on_axis(node)) // at rest, and perhaps without mass
         continue;
       free.erase(node);
@@ -166,8 +176,9 @@ void Constraints<dim>::reinit(const Discretization<dim> &discretization)
   projectors.clear();
   for (const auto &[node, P] : free)
     projectors.push_back({node, P});
+  plane_reactions.assign(projectors.size(), {});
   make_prescribed_nodes(discretization);
-      const unsigned int node = faces.node;
+  knows_parts = false;
 }
 
 /// With the projectors of the present mesh.
@@ -176,10 +187,9 @@ void Constraints<dim>::make_prescribed_nodes(const Discretization<dim> &discreti
 {
   prescribed_nodes.clear();
   for (unsigned int b = 0; b < prescribed.size(); ++b)
-  plane_reactions.assign(projectors.size(), {});
     for (const NodeFaces<dim> &faces : faces_of_nodes(discretization, prescribed[b]->ids, false))
-  knows_parts = false;
       {
+        const auto &[node, dyad, area, size] = faces;
         if (dim == 1 && discretization.on_axis(node))
           continue;
         Tensor<1, dim> direction = prescribed[b]->direction;
@@ -189,7 +199,6 @@ void Constraints<dim>::make_prescribed_nodes(const Discretization<dim> &discreti
             direction = area;
             if (const auto *P = projector(projectors, node))
               direction = *P * direction;
-        const auto &[node, dyad, area, size] = faces;
             if (!(direction.norm() > 1e-8 * area.norm())) // held
               continue;
             direction /= direction.norm();
@@ -201,6 +210,7 @@ void Constraints<dim>::make_prescribed_nodes(const Discretization<dim> &discreti
 template <int dim>
 void Constraints<dim>::apply(State<dim> &state, const double dt, const double mean)
 {
+  whole_reaction = Tensor<1, dim>();
   for (auto &[node, boundary, d, reaction] : prescribed_nodes)
     {
       // mean velocity of the coming step, so that the displacement follows the integral of the history to second order
@@ -210,12 +220,12 @@ void Constraints<dim>::apply(State<dim> &state, const double dt, const double me
         {
           v += d[c] * state.half_velocity.local_element(dim * node + c);
           f += d[c] * state.force.local_element(dim * node + c);
-  whole_reaction = Tensor<1, dim>();
         }
       const double wanted = (target - v) / (mean * state.inverse_mass.local_element(dim * node));
       reaction            = (wanted - f) * d;
       for (unsigned int c = 0; c < dim; ++c)
         state.force.local_element(dim * node + c) += reaction[c];
+      whole_reaction += reaction;
     }
   for (auto &[entry, x] : exact_nodes)
     {
@@ -225,12 +235,24 @@ void Constraints<dim>::apply(State<dim> &state, const double dt, const double me
         {
           const unsigned int i = dim * entry.node + c;
           double            &f = state.force.local_element(i);
-      whole_reaction += reaction;
           const double       wanted =
             (velocity[c] - state.half_velocity.local_element(i)) / (mean * state.inverse_mass.local_element(i));
           entry.reaction[c] = wanted - f;
           f                 = wanted;
         }
+      whole_reaction += entry.reaction;
+    }
+  for (unsigned int i = 0; i < projectors.size(); ++i)
+    {
+      const auto &[node, P] = projectors[i];
+      Tensor<1, dim> before;
+      for (unsigned int c = 0; c < dim; ++c)
+        before[c] = state.force.local_element(dim * node + c);
+      const Tensor<1, dim> after = P * before;
+      for (unsigned int c = 0; c < dim; ++c)
+        state.force.local_element(dim * node + c) = after[c];
+      plane_reactions[i] = after - before;
+      whole_reaction += plane_reactions[i];
     }
 }
 
@@ -313,19 +335,6 @@ double Constraints<dim>::power(const VectorType &half_velocity) const
 {
   double     sum = 0.;
   const auto add = [&](const PrescribedNode &entry) {
-      whole_reaction += entry.reaction;
-    }
-  for (unsigned int i = 0; i < projectors.size(); ++i)
-    {
-      const auto &[node, P] = projectors[i];
-      Tensor<1, dim> before;
-      for (unsigned int c = 0; c < dim; ++c)
-        before[c] = state.force.local_element(dim * node + c);
-      const Tensor<1, dim> after = P * before;
-      for (unsigned int c = 0; c < dim; ++c)
-        state.force.local_element(dim * node + c) = after[c];
-      plane_reactions[i] = after - before;
-      whole_reaction += plane_reactions[i];
     for (unsigned int c = 0; c < dim; ++c)
       sum += entry.reaction[c] * half_velocity.local_element(dim * entry.node + c);
   };

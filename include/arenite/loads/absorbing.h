@@ -38,8 +38,8 @@ public:
   std::string description() const override;
   const std::vector<std::string> &boundaries() const { return boundary_names; }
   const DampingBlocks<dim>       *damping() const override { return &dashpots; }
-  const VectorType               *nodal_state() const override { return spherical() ? &memory : nullptr; }
-  void                            set_nodal_state(const VectorType &) override;
+  std::vector<const VectorType *> nodal_states() const override;
+  void                            set_nodal_states(const std::vector<VectorType> &) override;
 
 private:
   bool spherical() const { return condition == "spherical"; }

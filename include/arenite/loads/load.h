@@ -77,9 +77,9 @@ public:
   /// What the last add() put on the nodes of this process, without dashpots, by boundary. Called in every step.
   virtual void add_resultants(Resultants<dim> &) const = 0;
 
-  /// Own state that must survive a change of the mesh: one scalar per node (zero elsewhere).
-  virtual const VectorType *nodal_state() const { return nullptr; }
-  virtual void              set_nodal_state(const VectorType &) {}
+  /// Own state that must survive a change of the mesh: as many scalars per node (zero elsewhere), on any mesh. The setter is collective.
+  virtual std::vector<const VectorType *> nodal_states() const { return {}; }
+  virtual void                            set_nodal_states(const std::vector<VectorType> &) {}
 
   /// Own state besides, for a checkpoint.
   virtual void exchange(StateArchive &) {}
