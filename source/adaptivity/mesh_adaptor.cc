@@ -288,7 +288,7 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
   transfer.add(state.displacement);
   transfer.add(velocity);
   for (const auto &load : dynamics.loads)
-    if (const VectorType *scalar = load->nodal_state())
+    for (const VectorType *scalar : load->nodal_states())
       {
         VectorType consistent = *scalar;
         make_consistent(discretization, consistent);
@@ -329,11 +329,12 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
   dynamics.constraints.project(state.displacement);
   dynamics.constraints.project(state.half_velocity);
   for (const auto &load : dynamics.loads)
-    if (load->nodal_state() != nullptr)
+    if (const std::size_t n_states = load->nodal_states().size(); n_states > 0)
       {
-        VectorType scalar = discretization.new_scalar();
-        transfer.next(scalar);
-        load->set_nodal_state(scalar);
+        std::vector<VectorType> states(n_states, discretization.new_scalar());
+        for (VectorType &scalar : states)
+          transfer.next(scalar);
+        load->set_nodal_states(states);
       }
   make_consistent(discretization, state.displacement);
   make_consistent(discretization, state.half_velocity);

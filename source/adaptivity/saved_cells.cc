@@ -100,7 +100,7 @@ std::function<void(std::ostream &)> SavedCells<dim>::writer(const Dynamics<dim> 
   if (dynamics.stores_points())
     add(state.last_displacement, dim, true);
   for (const auto &load : dynamics.loads)
-    if (const VectorType *scalar = load->nodal_state())
+    for (const VectorType *scalar : load->nodal_states())
       add(*scalar, 1, false);
 
   return [copies, fields, &dynamics, &state, &ratio](std::ostream &stream) {
@@ -228,18 +228,16 @@ void SavedCells<dim>::read(Discretization<dim> &discretization)
 template <int dim>
 void SavedCells<dim>::set_fields(Dynamics<dim> &dynamics, State<dim> &state, Vector<double> &ratio)
 {
-  Discretization<dim>    &discretization = dynamics.discretization;
-  std::vector<Field>      fields{{&state.displacement, dim}, {&state.half_velocity, dim}};
-  std::vector<VectorType> scalars;
-  scalars.reserve(dynamics.loads.size());
+  Discretization<dim> &discretization = dynamics.discretization;
+  std::vector<Field>   fields{{&state.displacement, dim}, {&state.half_velocity, dim}};
   if (dynamics.stores_points())
     fields.push_back({&state.last_displacement, dim});
+  std::vector<std::vector<VectorType>> states; // of each load
   for (const auto &load : dynamics.loads)
-    if (load->nodal_state())
-      {
-        scalars.push_back(discretization.new_scalar());
-        fields.push_back({&scalars.back(), 1});
-      }
+    states.emplace_back(load->nodal_states().size(), discretization.new_scalar());
+  for (std::vector<VectorType> &of_load : states)
+    for (VectorType &scalar : of_load)
+      fields.push_back({&scalar, 1});
   ratio.reinit(discretization.triangulation.n_active_cells());
   const std::size_t n_positions = dim * discretization.nodes_per_cell();
   for (unsigned int cell = 0; cell < numbers.size(); ++cell)
@@ -259,10 +257,9 @@ void SavedCells<dim>::set_fields(Dynamics<dim> &dynamics, State<dim> &state, Vec
     }
   if (dynamics.stores_points())
     state.last_displacement.update_ghost_values();
-  auto scalar = scalars.begin();
-  for (const auto &load : dynamics.loads)
-    if (load->nodal_state())
-      load->set_nodal_state(*scalar++);
+  for (std::size_t l = 0; l < states.size(); ++l)
+    if (!states[l].empty())
+      dynamics.loads[l]->set_nodal_states(states[l]);
 }
 
 template class SavedCells<1>;

@@ -12,14 +12,22 @@ namespace Arenite
 {
 using namespace dealii;
 
+const std::vector<std::string> &receiver_types()
+{
+  static const std::vector<std::string> types{"points", "line", "plane", "surface", "box"};
+  return types;
+}
+
+const char *const receiver_type_sentence = "Single points, written as a table; a line or plane of points, written to "
+                                           "receivers.h5; the force on a 'surface', its impulse and "
+                                           "mean velocity, or the momentum in a 'box', written as tables.";
+
 template <int dim>
 void ReceiverPoints<dim>::declare_parameters(Parameters &parameters)
 {
-  const std::vector<std::string> types{"points", "line", "plane"};
   path = parameters.current_path();
-  type = parameters.peek_choice(path + "/Type", type, types);
-  parameters.add_choice("Type", type, types,
-                        "Single points, written as a table; or a line or plane of points, written to receivers.h5.");
+  type = parameters.peek_choice(path + "/Type", type, receiver_types());
+  parameters.add_choice("Type", type, receiver_types(), receiver_type_sentence);
   if (type == "points")
     {
       const Symmetry symmetry   = DimensionChoice(parameters).symmetry;

@@ -364,11 +364,21 @@ template <int dim>
 void ReceiverSets<dim>::declare_parameters(Parameters &parameters)
 {
   names = parameters.peek_list("Receivers");
-  parameters.add_list("Receivers", names, "Sets of points where the motion is recorded; each has its section below.");
+  parameters.add_list("Receivers", names,
+                      "Sets of points where the motion is recorded, surfaces and boxes; each has its section below.");
   auto all = parameters.section("Receivers");
   for (const std::string &name : names)
     {
-      auto section = parameters.section(name);
+      auto              section = parameters.section(name);
+      const std::string type    = parameters.peek_choice("Receivers/" + name + "/Type", "points", receiver_types());
+      if (type == "surface" || type == "box")
+        {
+          types.push_back(type);
+          parameters.add_choice("Type", types.back(), receiver_types(), receiver_type_sentence);
+          balances.push_back(std::make_unique<BalanceReceiver<dim>>(name));
+          balances.back()->declare_parameters(parameters, type);
+          continue;
+        }
       sets.push_back(std::make_unique<Receivers<dim>>(name));
       sets.back()->declare_parameters(parameters);
     }
@@ -382,6 +392,14 @@ void ReceiverSets<dim>::finalize(const Parameters &parameters)
 }
 
 template <int dim>
+void ReceiverSets<dim>::finalize(const Parameters &parameters, const Geometry<dim> &geometry)
+{
+  finalize(parameters);
+  for (auto &balance : balances)
+    balance->finalize(parameters, geometry);
+}
+
+template <int dim>
 void ReceiverSets<dim>::reinit(const Discretization<dim> &discretization, const MaterialOfBlock &material,
                                const StoredPointValues<dim> &stored_values)
 {
@@ -390,11 +408,21 @@ void ReceiverSets<dim>::reinit(const Discretization<dim> &discretization, const 
 }
 
 template <int dim>
+void ReceiverSets<dim>::reinit(Dynamics<dim> &dynamics, const StoredPointValues<dim> &stored_values)
+{
+  reinit(dynamics.discretization, dynamics.material_of_block, stored_values);
+  for (auto &balance : balances)
+    balance->reinit(dynamics);
+}
+
+template <int dim>
 void ReceiverSets<dim>::open(const std::string &directory, const double start_time, const double end_time,
                              const ExactSolution<dim> *exact, const FileStart start)
 {
   for (auto &set : sets)
     set->open(directory, start_time, end_time, exact, store, start);
+  for (auto &balance : balances)
+    balance->open(directory, end_time, start);
   if (store && start == FileStart::fresh)
     store->create();
   else if (store)
@@ -406,6 +434,8 @@ void ReceiverSets<dim>::exchange(StateArchive &archive)
 {
   for (auto &set : sets)
     set->exchange(archive);
+  for (auto &balance : balances)
+    balance->exchange(archive);
 }
 
 template <int dim>
@@ -413,6 +443,8 @@ void ReceiverSets<dim>::record(const State<dim> &state)
 {
   for (auto &set : sets)
     set->record(state);
+  for (auto &balance : balances)
+    balance->record(state);
 }
 
 template <int dim>
@@ -420,6 +452,8 @@ void ReceiverSets<dim>::finish()
 {
   for (auto &set : sets)
     set->finish();
+  for (auto &balance : balances)
+    balance->finish();
   if (store)
     store->close();
   store.reset();
@@ -432,6 +466,9 @@ std::map<std::string, double> ReceiverSets<dim>::norms() const
   for (const auto &set : sets)
     for (const auto &[quantity, norm] : set->norms())
       result[set->set_name() + "." + quantity] = norm;
+  for (const auto &balance : balances)
+    for (const auto &[quantity, norm] : balance->norms())
+      result[balance->set_name() + "." + quantity] = norm;
   return result;
 }
 

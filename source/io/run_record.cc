@@ -58,7 +58,10 @@ void RunRecord::write(const OutputDirectory &directory) const
           json["linear_iterations"] = linear_iterations;
         }
       else
-        json["energy_error"] = energy_error;
+        {
+          json["energy_error"]  = energy_error;
+          json["impulse_error"] = impulse_error;
+        }
       json["mass_error"]             = mass_error;
       json["momentum_error"]         = momentum_error;
       json["dissipation"]            = dissipation;
@@ -100,6 +103,7 @@ void RunRecord::print_summary(Log &log, const OutputDirectory &directory) const
   else
     {
       row("energy error", "%.1e", energy_error);
+      row("impulse error", "%.1e", impulse_error);
       row("mass error", "%.1e", mass_error);
       row("momentum error", "%.1e", momentum_error);
     }

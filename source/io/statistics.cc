@@ -79,6 +79,7 @@ void Statistics::exchange(StateArchive &archive)
   archive.common(last_info.step);
   archive.common(last_info.n_dofs);
   archive.common(largest_scale);
+  archive.common(largest_momentum);
   archive.common(work);
   archive.common(n_rows);
   printed_work = work;
@@ -103,7 +104,12 @@ void Statistics::write_header(const EnergyReport &report)
   energy("step changes");
   energy("adaptation");
   energy("imbalance");
-  file << ",relative energy error\n";
+  file << ",relative energy error";
+  for (const auto &column : report.momentum.columns)
+    file << ',' << column.first << " (modelled part) [N s" << per_extent << ']';
+  if (!report.momentum.columns.empty())
+    file << ",relative momentum error";
+  file << '\n';
 }
 
 void Statistics::add(const EnergyReport &report, const StepInfo &info)
@@ -111,11 +117,12 @@ void Statistics::add(const EnergyReport &report, const StepInfo &info)
   if (n_rows > 0)
     work += static_cast<double>(last_info.n_dofs) * (info.step - last_info.step);
   // relative to the largest energy so far: the first wave of a run has hardly any
-  largest_scale = std::max(largest_scale, report.scale());
-  last_error    = largest_scale > 0. ? std::abs(report.imbalance()) / largest_scale : 0.;
-  last          = report;
-  last_info     = info;
-  printed_last  = false;
+  largest_scale    = std::max(largest_scale, report.scale());
+  largest_momentum = std::max(largest_momentum, report.momentum.scale);
+  last_error       = largest_scale > 0. ? std::abs(report.imbalance()) / largest_scale : 0.;
+  last             = report;
+  last_info        = info;
+  printed_last     = false;
 
   if (active)
     {
@@ -139,7 +146,12 @@ void Statistics::add(const EnergyReport &report, const StepInfo &info)
       energy(report.step_changes);
       energy(report.adaptation);
       energy(report.imbalance());
-      file << ',' << to_text(last_error) << '\n' << std::flush;
+      file << ',' << to_text(last_error);
+      for (const auto &column : report.momentum.columns)
+        file << ',' << to_text(column.second);
+      if (!report.momentum.columns.empty())
+        file << ',' << to_text(largest_momentum > 0. ? std::abs(report.momentum.imbalance) / largest_momentum : 0.);
+      file << '\n' << std::flush;
       if (!file)
         problem = write_problem(name);
       if (n_rows == 0 || std::chrono::duration<double>(Clock::now() - printed_at).count() >= progress_interval)

@@ -30,45 +30,67 @@ template <int dim>
 void AbsorbingBoundary<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &,
                                     const MaterialOfBlock     &material)
 {
-  // per node: six entries of the dashpot block, spring and push of the spherical condition, cp dS, dS
-  constexpr unsigned int n_entries = SymmetricTensor<2, dim>::n_independent_components;
-  const auto             nodes     = integrate_on_boundary<n_entries + 4>(
-    discretization, ids, true, [&](const Point<dim> &x, const Tensor<1, dim> &dA, const types::material_id id) {
-      const LinearElastic     law = material(id);
-      const double            z_p = law.density * law.p_wave_speed(), z_s = law.density * law.s_wave_speed();
-      const double            dS = dA.norm(), b = (x - Point<dim>(centre)).norm();
-      const Tensor<1, dim>    n = spherical() ? (x - Point<dim>(centre)) / b : dA / dS;
-      SymmetricTensor<2, dim> D;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = i; j < dim; ++j)
-          D[i][j] = dS * ((z_p - z_s) * n[i] * n[j] + (i == j ? z_s : 0.));
-      std::array<double, n_entries + 4> q;
-      for (unsigned int k = 0; k < n_entries; ++k)
-        q[k] = D.access_raw_entry(k);
-      q[n_entries]     = dS * 4. * law.shear_modulus / b;
-      q[n_entries + 1] = dS * z_p * law.p_wave_speed() / b;
-      q[n_entries + 2] = dS * law.p_wave_speed();
-      q[n_entries + 3] = dS;
-      return q;
-    });
-
-  dashpots.clear();
+  make_dashpots(discretization, material);
   springs.clear();
-  if (memory.get_partitioner() != discretization.node_partitioner) // a new mesh, whose values come by set_nodal_state()
+  if (memory.get_partitioner() !=
+      discretization.node_partitioner) // a new mesh, whose values come by set_nodal_states()
     memory.reinit(discretization.node_partitioner);
-  for (const auto &[node, q] : nodes)
+  if (spherical())
+    make_springs(discretization, material);
+}
+
+template <int dim>
+void AbsorbingBoundary<dim>::make_dashpots(const Discretization<dim> &discretization, const MaterialOfBlock &material)
+{
+  // per node: the entries of the dashpot block, n dS, dS
+  constexpr unsigned int n_entries = SymmetricTensor<2, dim>::n_independent_components;
+  dashpots.clear();
+  for (const types::boundary_id boundary : ids)
+    for (const auto &[node, q] : integrate_on_boundary<n_entries + dim + 1>(
+           discretization, {boundary}, true,
+           [&](const Point<dim> &x, const Tensor<1, dim> &dA, const types::material_id id) {
+             const LinearElastic     law = material(id);
+             const double            z_p = law.density * law.p_wave_speed(), z_s = law.density * law.s_wave_speed();
+             const double            dS = dA.norm(), b = (x - Point<dim>(centre)).norm();
+             const Tensor<1, dim>    n = spherical() ? (x - Point<dim>(centre)) / b : dA / dS;
+             SymmetricTensor<2, dim> D;
+             for (unsigned int i = 0; i < dim; ++i)
+               for (unsigned int j = i; j < dim; ++j)
+                 D[i][j] = dS * ((z_p - z_s) * n[i] * n[j] + (i == j ? z_s : 0.));
+             std::array<double, n_entries + dim + 1> q;
+             for (unsigned int k = 0; k < n_entries; ++k)
+               q[k] = D.access_raw_entry(k);
+             for (unsigned int c = 0; c < dim; ++c)
+               q[n_entries + c] = dA[c];
+             q[n_entries + dim] = dS;
+             return q;
+           }))
+      {
+        DampingBlock<dim> block{node, {}, boundary, {}};
+        for (unsigned int k = 0; k < n_entries; ++k)
+          block.value.access_raw_entry(k) = q[k];
+        for (unsigned int c = 0; c < dim; ++c)
+          block.normal[c] = q[n_entries + c];
+        if (const double size = block.normal.norm(); size > 0.)
+          block.normal /= size;
+        dashpots.push_back(block);
+      }
+}
+
+template <int dim>
+void AbsorbingBoundary<dim>::make_springs(const Discretization<dim> &discretization, const MaterialOfBlock &material)
+{
+  // per node: spring and push of the condition, cp dS, dS
+  for (const auto &[node, q] : integrate_on_boundary<4>(
+         discretization, ids, true, [&](const Point<dim> &x, const Tensor<1, dim> &dA, const types::material_id id) {
+           const LinearElastic law = material(id);
+           const double        dS = dA.norm(), b = (x - Point<dim>(centre)).norm(), cp = law.p_wave_speed();
+           return std::array<double, 4>{{dS * 4. * law.shear_modulus / b, dS * law.density * cp * cp / b, dS * cp, dS}};
+         }))
     {
-      SymmetricTensor<2, dim> D;
-      for (unsigned int k = 0; k < n_entries; ++k)
-        D.access_raw_entry(k) = q[k];
-      dashpots.push_back({node, D});
-      if (spherical())
-        {
-          const Tensor<1, dim> from_centre = discretization.position(node) - Point<dim>(centre);
-          const double         b           = from_centre.norm();
-          springs.push_back(
-            {node, from_centre / b, q[n_entries], q[n_entries + 1], q[n_entries + 2] / (q[n_entries + 3] * b)});
-        }
+      const Tensor<1, dim> from_centre = discretization.position(node) - Point<dim>(centre);
+      const double         b           = from_centre.norm();
+      springs.push_back({node, from_centre / b, q[0], q[1], q[2] / (q[3] * b)});
     }
 }
 
@@ -96,6 +118,17 @@ double AbsorbingBoundary<dim>::power(const VectorType &half_velocity) const
   return sum;
 }
 
+/// On a sphere; it is rarely made of more boundaries than one, and the first has to stand for all of them.
+template <int dim>
+void AbsorbingBoundary<dim>::add_resultants(Resultants<dim> &sums) const
+{
+  if (springs.empty())
+    return;
+  Resultant<dim> &sum = sums[ids.front()];
+  for (const auto &s : springs)
+    sum += {s.force * s.normal, s.force};
+}
+
 template <int dim>
 void AbsorbingBoundary<dim>::finish_step(const VectorType &half_velocity, const double dt)
 {
@@ -111,10 +144,18 @@ void AbsorbingBoundary<dim>::finish_step(const VectorType &half_velocity, const 
 }
 
 template <int dim>
-void AbsorbingBoundary<dim>::set_nodal_state(const VectorType &values)
+std::vector<const VectorType *> AbsorbingBoundary<dim>::nodal_states() const
 {
-  memory.reinit(values.get_partitioner());
-  std::copy_n(values.begin(), values.locally_owned_size(), memory.begin());
+  if (spherical())
+    return {&memory};
+  return {};
+}
+
+template <int dim>
+void AbsorbingBoundary<dim>::set_nodal_states(const std::vector<VectorType> &values)
+{
+  memory.reinit(values.front().get_partitioner());
+  std::copy_n(values.front().begin(), values.front().locally_owned_size(), memory.begin());
 }
 
 template <int dim>

@@ -43,6 +43,14 @@ double BodyForce<dim>::power(const VectorType &half_velocity) const
   return sum;
 }
 
+template <int dim>
+void BodyForce<dim>::add_resultants(Resultants<dim> &sums) const
+{
+  Tensor<1, dim> &force = sums[inside].force;
+  for (unsigned int i = 0; i < current.locally_owned_size(); ++i)
+    force[i % dim] += current.local_element(i);
+}
+
 template class BodyForce<1>;
 template class BodyForce<2>;
 template class BodyForce<3>;

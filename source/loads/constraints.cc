@@ -1,4 +1,5 @@
 #include <arenite/loads/constraints.h>
+#include <arenite/loads/node_faces.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -96,58 +97,6 @@ bool Constraints<dim>::admits(Reduction &form, const Parameters &parameters) con
 
 namespace
 {
-/// integral of n n^T dS around each owned free node of boundaries: its range are the normals of all faces at the node, on whatever
-/// process they are.
-template <int dim>
-std::vector<NodeValue<SymmetricTensor<2, dim>>> boundary_normals(const Discretization<dim>             &discretization,
-                                                                 const std::vector<types::boundary_id> &ids)
-{
-  constexpr unsigned int                          n_entries = SymmetricTensor<2, dim>::n_independent_components;
-  std::vector<NodeValue<SymmetricTensor<2, dim>>> result;
-  for (const auto &[node, q] :
-       integrate_on_boundary<n_entries + 1>(discretization, ids, false,
-                                            [](const Point<dim> &, const Tensor<1, dim> &dA, const types::material_id) {
-                                              std::array<double, n_entries + 1> values;
-                                              SymmetricTensor<2, dim>           dyad;
-                                              for (unsigned int i = 0; i < dim; ++i)
-                                                for (unsigned int j = i; j < dim; ++j)
-                                                  dyad[i][j] = dA[i] * dA[j] / dA.norm();
-                                              for (unsigned int k = 0; k < n_entries; ++k)
-                                                values[k] = dyad.access_raw_entry(k);
-                                              values[n_entries] = dA.norm();
-                                              return values;
-                                            }))
-    {
-      result.push_back({node, SymmetricTensor<2, dim>()});
-      for (unsigned int k = 0; k < n_entries; ++k)
-        result.back().value.access_raw_entry(k) = q[k] / q[n_entries];
-    }
-  return result;
-}
-
-/// integral of n dS around each owned free node of boundaries.
-template <int dim>
-std::vector<NodeValue<Tensor<1, dim>>> boundary_areas(const Discretization<dim>             &discretization,
-                                                      const std::vector<types::boundary_id> &ids)
-{
-  std::vector<NodeValue<Tensor<1, dim>>> result;
-  for (const auto &[node, q] :
-       integrate_on_boundary<dim + 1>(discretization, ids, false,
-                                      [](const Point<dim> &, const Tensor<1, dim> &dA, const types::material_id) {
-                                        std::array<double, dim + 1> values;
-                                        for (unsigned int c = 0; c < dim; ++c)
-                                          values[c] = dA[c];
-                                        values[dim] = dA.norm();
-                                        return values;
-                                      }))
-    {
-      result.push_back({node, Tensor<1, dim>()});
-      for (unsigned int c = 0; c < dim; ++c)
-        result.back().value[c] = q[c];
-    }
-  return result;
-}
-
 /// What @p list (of ascending nodes) has for a node, or null.
 template <int dim>
 const SymmetricTensor<2, dim> *projector(const std::vector<NodeValue<SymmetricTensor<2, dim>>> &list,
@@ -177,12 +126,12 @@ double integral(const TimeHistory &velocity, const double from, const double to)
 
 /// Projector onto the directions that no face normal in @p normals (with trace 1) constrains.
 template <int dim>
-SymmetricTensor<2, dim> free_directions(const SymmetricTensor<2, dim> &normals)
+SymmetricTensor<2, dim> free_directions(const SymmetricTensor<2, dim> &normals, const double threshold = 1e-8)
 {
   SymmetricTensor<2, dim> P = unit_symmetric_tensor<dim>();
   // planes that meet at an angle give eigenvalues of the order of one, the noise of flat faces 1e-30
   for (const auto &[value, m] : eigenvectors(normals))
-    if (value > 1e-8)
+    if (value > threshold)
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = i; j < dim; ++j)
           P[i][j] -= m[i] * m[j];
@@ -194,10 +143,10 @@ template <int dim>
 void Constraints<dim>::reinit(const Discretization<dim> &discretization)
 {
   std::map<unsigned int, SymmetricTensor<2, dim>> free;
-  for (const auto &[node, normals] : boundary_normals(discretization, symmetry))
-    free[node] = free_directions(normals);
-  for (const auto &[node, normals] : boundary_normals(discretization, fixed))
-    free[node] = SymmetricTensor<2, dim>();
+  for (const NodeFaces<dim> &faces : faces_of_nodes(discretization, symmetry, false))
+    free[faces.node] = free_directions<dim>(faces.dyad / faces.size);
+  for (const NodeFaces<dim> &faces : faces_of_nodes(discretization, fixed, false))
+    free[faces.node] = SymmetricTensor<2, dim>();
   for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
     if (discretization.on_axis(node)) // no radial motion, whatever the boundaries are called
       {
@@ -206,9 +155,19 @@ void Constraints<dim>::reinit(const Discretization<dim> &discretization)
           P[0][c] = 0.;
       }
 
-  exact_nodes.clear();
-  for (const auto &[node, normals] : boundary_normals(discretization, exact))
+  // the facets of a curved surface have one normal at a node, faces that meet at more than about 25 degrees several
+  for (const NodeFaces<dim> &faces : faces_of_nodes(discretization, held, false))
     {
+      auto                         &P = free.emplace(faces.node, unit_symmetric_tensor<dim>()).first->second;
+      const SymmetricTensor<2, dim> also =
+        held_fully ? SymmetricTensor<2, dim>() : free_directions<dim>(faces.dyad / faces.size, 0.05);
+      P = free_directions<dim>(unit_symmetric_tensor<dim>() - 0.5 * (P + also));
+    }
+
+  exact_nodes.clear();
+  for (const NodeFaces<dim> &faces : faces_of_nodes(discretization, exact, false))
+    {
+      const unsigned int node = faces.node;
       if (dim == 1 && discretization.on_axis(node)) // at rest, and perhaps without mass
         continue;
       free.erase(node);
@@ -217,7 +176,9 @@ void Constraints<dim>::reinit(const Discretization<dim> &discretization)
   projectors.clear();
   for (const auto &[node, P] : free)
     projectors.push_back({node, P});
+  plane_reactions.assign(projectors.size(), {});
   make_prescribed_nodes(discretization);
+  knows_parts = false;
 }
 
 /// With the projectors of the present mesh.
@@ -226,8 +187,9 @@ void Constraints<dim>::make_prescribed_nodes(const Discretization<dim> &discreti
 {
   prescribed_nodes.clear();
   for (unsigned int b = 0; b < prescribed.size(); ++b)
-    for (const auto &[node, area] : boundary_areas(discretization, prescribed[b]->ids))
+    for (const NodeFaces<dim> &faces : faces_of_nodes(discretization, prescribed[b]->ids, false))
       {
+        const auto &[node, dyad, area, size] = faces;
         if (dim == 1 && discretization.on_axis(node))
           continue;
         Tensor<1, dim> direction = prescribed[b]->direction;
@@ -248,6 +210,7 @@ void Constraints<dim>::make_prescribed_nodes(const Discretization<dim> &discreti
 template <int dim>
 void Constraints<dim>::apply(State<dim> &state, const double dt, const double mean)
 {
+  whole_reaction = Tensor<1, dim>();
   for (auto &[node, boundary, d, reaction] : prescribed_nodes)
     {
       // mean velocity of the coming step, so that the displacement follows the integral of the history to second order
@@ -262,6 +225,7 @@ void Constraints<dim>::apply(State<dim> &state, const double dt, const double me
       reaction            = (wanted - f) * d;
       for (unsigned int c = 0; c < dim; ++c)
         state.force.local_element(dim * node + c) += reaction[c];
+      whole_reaction += reaction;
     }
   for (auto &[entry, x] : exact_nodes)
     {
@@ -276,8 +240,94 @@ void Constraints<dim>::apply(State<dim> &state, const double dt, const double me
           entry.reaction[c] = wanted - f;
           f                 = wanted;
         }
+      whole_reaction += entry.reaction;
     }
-  project(state.force);
+  for (unsigned int i = 0; i < projectors.size(); ++i)
+    {
+      const auto &[node, P] = projectors[i];
+      Tensor<1, dim> before;
+      for (unsigned int c = 0; c < dim; ++c)
+        before[c] = state.force.local_element(dim * node + c);
+      const Tensor<1, dim> after = P * before;
+      for (unsigned int c = 0; c < dim; ++c)
+        state.force.local_element(dim * node + c) = after[c];
+      plane_reactions[i] = after - before;
+      whole_reaction += plane_reactions[i];
+    }
+}
+
+/// With the nodal lists of the present mesh.
+template <int dim>
+void Constraints<dim>::make_parts(const Discretization<dim> &discretization)
+{
+  std::map<unsigned int, std::vector<Part>> of_node; // with stiffness instead of the share
+  const auto                                add = [&](const types::boundary_id id, const auto &stiffness) {
+    for (const NodeFaces<dim> &faces : faces_of_nodes(discretization, {id}, false))
+      of_node[faces.node].push_back({0, id, Tensor<2, dim>(stiffness(faces)), faces.normal()});
+  };
+  for (const types::boundary_id id : symmetry)
+    add(id, [](const NodeFaces<dim> &faces) { return faces.dyad; });
+  for (const auto *ids : {&fixed, &exact})
+    for (const types::boundary_id id : *ids)
+      add(id, [](const NodeFaces<dim> &faces) { return faces.size * unit_symmetric_tensor<dim>(); });
+  std::map<std::pair<unsigned int, unsigned int>, Tensor<1, dim>> direction;
+  for (const PrescribedNode &entry : prescribed_nodes)
+    direction[{entry.boundary, entry.node}] = entry.direction;
+  for (unsigned int b = 0; b < prescribed.size(); ++b)
+    for (const types::boundary_id id : prescribed[b]->ids)
+      add(id, [&](const NodeFaces<dim> &faces) {
+        const auto along = direction.find({b, faces.node});
+        return along == direction.end() ? SymmetricTensor<2, dim>()
+                                        : faces.size * symmetrize(outer_product(along->second, along->second));
+      });
+
+  parts.clear();
+  held_nodes.clear();
+  for (auto &[node, list] : of_node)
+    {
+      held_nodes.push_back(node);
+      SymmetricTensor<2, dim> K;
+      for (const Part &part : list)
+        K += symmetrize(part.share);
+      Tensor<2, dim> inverse; // on what is held
+      for (const auto &[value, m] : eigenvectors(K))
+        if (value > 1e-8 * trace(K))
+          inverse += outer_product(m, m) / value;
+      for (Part &part : list)
+        {
+          part.share = part.share * inverse;
+          part.node  = held_nodes.size() - 1;
+          parts.push_back(part);
+        }
+    }
+  knows_parts = true;
+}
+
+template <int dim>
+void Constraints<dim>::add_resultants(const Discretization<dim> &discretization, Resultants<dim> &sums)
+{
+  if (!knows_parts)
+    make_parts(discretization);
+  held_reactions.assign(held_nodes.size(), {});
+  const auto add = [&](const unsigned int node, const Tensor<1, dim> &reaction) {
+    const auto at = std::lower_bound(held_nodes.begin(), held_nodes.end(), node);
+    if (at != held_nodes.end() && *at == node)
+      held_reactions[at - held_nodes.begin()] += reaction;
+  };
+  for (unsigned int i = 0; i < projectors.size(); ++i)
+    add(projectors[i].node, plane_reactions[i]);
+  for (const PrescribedNode &entry : prescribed_nodes)
+    add(entry.node, entry.reaction);
+  for (const auto &[entry, x] : exact_nodes)
+    add(entry.node, entry.reaction);
+  Tensor<1, dim> rest = whole_reaction; // of the axis
+  for (const Part &part : parts)
+    {
+      const Tensor<1, dim> force = part.share * held_reactions[part.node];
+      sums[part.boundary] += {force, force * part.normal};
+      rest -= force;
+    }
+  sums[inside].force += rest;
 }
 
 template <int dim>
@@ -377,11 +427,9 @@ void Constraints<dim>::prescribe(VectorType &change, const VectorType &displacem
 template <int dim>
 void Constraints<dim>::project(DampingBlocks<dim> &blocks) const
 {
-  for (auto &[node, D] : blocks)
-    {
-      if (const auto *P = projector(projectors, node))
-        D = symmetrize(Tensor<2, dim>(*P) * Tensor<2, dim>(D) * Tensor<2, dim>(*P));
-    }
+  for (DampingBlock<dim> &block : blocks)
+    if (const auto *P = projector(projectors, block.node))
+      block.value = symmetrize(Tensor<2, dim>(*P) * Tensor<2, dim>(block.value) * Tensor<2, dim>(*P));
 }
 
 template class Constraints<1>;

@@ -47,12 +47,16 @@ void DeformedFaces<dim>::reinit(const Discretization<dim>             &new_discr
   const unsigned int p = discretization->degree(), per_line = p + 1;
   face_nodes.clear();
   sign.clear();
+  boundary.clear();
+  sum.assign(ids.size(), {});
   for (unsigned int cell = 0; cell < discretization->cells().size(); ++cell)
     for (const unsigned int f : discretization->cells()[cell]->face_indices())
       {
         const auto &face = discretization->cells()[cell]->face(f);
-        if (!face->at_boundary() || std::find(ids.begin(), ids.end(), face->boundary_id()) == ids.end())
+        const auto  id   = face->at_boundary() ? std::find(ids.begin(), ids.end(), face->boundary_id()) : ids.end();
+        if (id == ids.end())
           continue;
+        boundary.push_back(id - ids.begin());
         unsigned int step = 1;
         for (unsigned int d = 0; d < f / 2; ++d)
           step *= per_line;
@@ -136,6 +140,7 @@ const VectorType &DeformedFaces<dim>::areas(const VectorType &displacement)
   const double *X = discretization->positions.begin(), *u = displacement.begin();
   for (const unsigned int node : touched_nodes)
     std::fill_n(A + dim * node, dim, 0.);
+  std::fill(sum.begin(), sum.end(), Resultant<dim>());
   for (unsigned int face = 0; face < sign.size(); ++face)
     {
       const unsigned int *nodes = &face_nodes[face * n];
@@ -158,6 +163,7 @@ const VectorType &DeformedFaces<dim>::areas(const VectorType &displacement)
                   t[k][c] += shares[s].slope[k] * value;
               }
           const Tensor<1, dim> dA = sign[face] * weight[q] * measure(discretization->symmetry, x) * area_vector<dim>(t);
+          sum[boundary[face]] += {dA, dA.norm()};
           for (unsigned int s = start[q]; s < start[q + 1]; ++s)
             part[shares[s].node] += shares[s].value * dA;
         }

@@ -157,28 +157,32 @@ void HeldStress<dim>::reinit(const Discretization<dim> &discretization, const No
   stress.reinit(discretization, material);
   VectorType         sum = discretization.new_vector();
   const unsigned int n   = discretization.nodes_per_cell();
-  for_each_face_point(discretization, stress.held(),
-                      [&](const unsigned int *nodes, const double *N, const Point<dim> &x, const Tensor<1, dim> &dA,
-                          const types::material_id id) {
-                        Point<dim> place = x;
-                        if (one_point)
-                          {
-                            place                       = Point<dim>();
-                            const unsigned int per_face = n / 2;
-                            for (unsigned int i = 0; i < n; ++i)
-                              if (N[i] > 1e-12)
-                                place += discretization.position(nodes[i]) / per_face;
-                          }
-                        const SymTensor<double> s = stress.at(place, id);
-                        for (unsigned int c = 0; c < dim; ++c)
-                          {
-                            double t = 0.;
-                            for (unsigned int d = 0; d < dim; ++d)
-                              t += s[c == d ? c : 2 + c + d] * dA[d];
-                            for (unsigned int i = 0; i < n; ++i)
-                              sum.local_element(dim * nodes[i] + c) += N[i] * t;
-                          }
-                      });
+  whole.clear();
+  for (const types::boundary_id boundary : stress.held())
+    for_each_face_point(discretization, {boundary},
+                        [&](const unsigned int *nodes, const double *N, const Point<dim> &x, const Tensor<1, dim> &dA,
+                            const types::material_id id) {
+                          Point<dim> place = x;
+                          if (one_point)
+                            {
+                              place                       = Point<dim>();
+                              const unsigned int per_face = n / 2;
+                              for (unsigned int i = 0; i < n; ++i)
+                                if (N[i] > 1e-12)
+                                  place += discretization.position(nodes[i]) / per_face;
+                            }
+                          const SymTensor<double> s = stress.at(place, id);
+                          Tensor<1, dim>          t;
+                          for (unsigned int c = 0; c < dim; ++c)
+                            {
+                              for (unsigned int d = 0; d < dim; ++d)
+                                t[c] += s[c == d ? c : 2 + c + d] * dA[d];
+                              for (unsigned int i = 0; i < n; ++i)
+                                sum.local_element(dim * nodes[i] + c) += N[i] * t[c];
+                            }
+                          if (const double dS = dA.norm(); dS > 0.)
+                            whole[boundary] += {t, t * dA / dS};
+                        });
   traction = assemble(discretization, sum);
 }
 
@@ -192,6 +196,13 @@ template <int dim>
 double HeldStress<dim>::power(const VectorType &half_velocity) const
 {
   return power_of(traction, 1., half_velocity);
+}
+
+template <int dim>
+void HeldStress<dim>::add_resultants(Resultants<dim> &sums) const
+{
+  for (const auto &[boundary, resultant] : whole)
+    sums[boundary] += resultant;
 }
 
 template <int dim>

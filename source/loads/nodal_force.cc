@@ -40,6 +40,7 @@ void UniformPressure<dim>::finalize(const Parameters &parameters, const Geometry
 template <int dim>
 void UniformPressure<dim>::reinit(const Discretization<dim> &discretization, const NodalMass &, const MaterialOfBlock &)
 {
+  whole.assign(ids.size(), {});
   if (follows_surface)
     {
       faces.reinit(discretization, ids);
@@ -50,13 +51,15 @@ void UniformPressure<dim>::reinit(const Discretization<dim> &discretization, con
     }
   VectorType         sum = discretization.new_vector();
   const unsigned int n   = discretization.nodes_per_cell();
-  for_each_face_point(discretization, ids,
-                      [&](const unsigned int *nodes, const double *N, const Point<dim> &, const Tensor<1, dim> &dA,
-                          const types::material_id) {
-                        for (unsigned int i = 0; i < n; ++i)
-                          for (unsigned int c = 0; c < dim; ++c)
-                            sum.local_element(dim * nodes[i] + c) += N[i] * dA[c];
-                      });
+  for (unsigned int b = 0; b < ids.size(); ++b)
+    for_each_face_point(discretization, {ids[b]},
+                        [&](const unsigned int *nodes, const double *N, const Point<dim> &, const Tensor<1, dim> &dA,
+                            const types::material_id) {
+                          for (unsigned int i = 0; i < n; ++i)
+                            for (unsigned int c = 0; c < dim; ++c)
+                              sum.local_element(dim * nodes[i] + c) += N[i] * dA[c];
+                          whole[b] += {dA, dA.norm()};
+                        });
   area = assemble(discretization, sum);
 }
 
@@ -69,6 +72,14 @@ void UniformPressure<dim>::find_areas(const State<dim> &state)
   for (auto &[node, value] : area)
     for (unsigned int c = 0; c < dim; ++c)
       value[c] = now.local_element(dim * node + c);
+  whole = faces.sums();
+}
+
+template <int dim>
+void UniformPressure<dim>::add_resultants(Resultants<dim> &sums) const
+{
+  for (unsigned int b = 0; b < ids.size(); ++b)
+    sums[ids[b]] += factor * whole[b];
 }
 
 template <int dim>
@@ -125,6 +136,7 @@ void Gravity<dim>::reinit(const Discretization<dim> &discretization, const Nodal
   for (unsigned int node = 0; node < discretization.n_owned_nodes(); ++node)
     if (mass.condensed.local_element(node) > 0.)
       weight.push_back({node, mass.condensed.local_element(node) * acceleration});
+  whole = resultant_of(weight, 1.);
 }
 
 template <int dim>

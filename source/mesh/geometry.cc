@@ -22,7 +22,9 @@ std::vector<types::boundary_id> Geometry<dim>::boundary_ids(const Parameters &pa
       const auto position = std::find(names.begin(), names.end(), name);
       if (position == names.end())
         parameters.refuse(path, "'" + name + "' is not a boundary of this mesh." + suggestion(name, names));
-      ids.push_back(static_cast<types::boundary_id>(position - names.begin()));
+      const auto id = static_cast<types::boundary_id>(position - names.begin());
+      if (std::find(ids.begin(), ids.end(), id) == ids.end())
+        ids.push_back(id);
     }
   return ids;
 }

@@ -25,6 +25,7 @@ void Simulation<dim>::exchange_state(StateArchive &archive)
   for (BlockState &block : state.blocks)
     block.points.exchange(archive);
   dynamics->balance.exchange(archive);
+  dynamics->momentum_balance.exchange(archive);
   scene.time_step.exchange(archive);
   scene.adaptor.exchange(archive);
   for (const auto &load : dynamics->loads)

@@ -1,6 +1,7 @@
 #include <arenite/loads/absorbing.h>
 #include <arenite/loads/body_force.h>
 #include <arenite/loads/nodal_force.h>
+#include <arenite/loads/support_at_rest.h>
 #include <arenite/materials/elasticity_at_rest.h>
 #include <arenite/materials/law_list.h>
 #include <arenite/simulation/material_bench.h>
@@ -87,6 +88,10 @@ void Scene<dim>::declare_parameters(Parameters &parameters)
       "State", initial_state, {"rest", "exact solution", "equilibrium"},
       "Displacement and velocity at t = 0. 'equilibrium': at rest under the loads of t = 0, found by Newton's "
       "method from 'Stress'; needs 'Statics' and hourglass control by stiffness.");
+    parameters.add_choice(
+      "Support at rest", support_at_rest, {"rollers", "fixed"},
+      "How absorbing boundaries hold the body while 'State = equilibrium' is found: along their normals, or in all "
+      "directions. Their reaction goes on as a constant traction, with the dashpots on the motion that comes.");
     initial_velocity.declare_parameters(parameters);
     initial_energy.declare_parameters(parameters);
     stress_at_rest.declare_parameters(parameters);
@@ -145,12 +150,14 @@ void Scene<dim>::finalize(Parameters &parameters)
   stress_at_rest.finalize(parameters, *mesh.geometry, loads, past);
   if (stress_at_rest.is_wanted())
     loads.push_back(std::make_unique<HeldStress<dim>>(stress_at_rest, element.type == "one-point hexahedron"));
+  if (initial_state == "equilibrium")
+    support_absorbing_boundaries(parameters);
   constraints.finalize(parameters, *mesh.geometry);
   initial_velocity.finalize(parameters, block_names);
   initial_energy.finalize(parameters);
   time_step.finalize(parameters);
   adaptor.finalize(parameters, mesh, *mesh.geometry);
-  receivers.finalize(parameters);
+  receivers.finalize(parameters, *mesh.geometry);
   pictures.finalize(parameters);
   statistics.finalize(parameters);
 
@@ -176,6 +183,21 @@ void Scene<dim>::finalize(Parameters &parameters)
     loads.push_back(std::make_unique<BodyForce<dim>>(exact_solution));
 }
 
+/// Dashpots hold nothing at rest.
+template <int dim>
+void Scene<dim>::support_absorbing_boundaries(const Parameters &parameters)
+{
+  std::vector<std::string> names;
+  for (const auto &load : loads)
+    if (const auto *boundary = dynamic_cast<const AbsorbingBoundary<dim> *>(load.get()))
+      names.insert(names.end(), boundary->boundaries().begin(), boundary->boundaries().end());
+  if (names.empty())
+    return;
+  loads.push_back(
+    std::make_unique<SupportAtRest<dim>>(mesh.geometry->boundary_ids(parameters, "Initial conditions/State", names),
+                                         names));
+}
+
 /// What has no meaning where nothing moves, in the whole run or at its start.
 template <int dim>
 void Scene<dim>::refuse_motion(const Parameters &parameters) const
@@ -186,13 +208,9 @@ void Scene<dim>::refuse_motion(const Parameters &parameters) const
     parameters.refuse("Element/Hourglass control", reason + ": take 'stiffness'");
   if (!initial_velocity.at_rest())
     parameters.refuse("Initial conditions/Moving regions", reason);
-  if (!is_static())
-    for (const auto &load : loads)
-      if (dynamic_cast<const AbsorbingBoundary<dim> *>(load.get()))
-        parameters.refuse("Initial conditions/State",
-                          "the dashpots of '" + load->name +
-                            "' hold nothing at rest. Fix that boundary, or begin with 'State = rest' under a "
-                            "geostatic stress that holds it");
+  if (is_static() && receivers.has_balances())
+    parameters.refuse("Receivers",
+                      "surfaces and boxes follow the steps of a motion, and have no meaning with 'Analysis = static'");
   if (is_static() && initial_state != "rest")
     parameters.refuse("Initial conditions/State", reason);
 }

@@ -269,18 +269,6 @@ MaterialOfBlock Simulation<dim>::material_of_block() const
 }
 
 template <int dim>
-void Simulation<dim>::reinit_receivers()
-{
-  StoredPointValues<dim> stored;
-  if (dynamics->gives_point_values())
-    stored = {[this](const State<dim> &s, const unsigned int cell, std::vector<double> &values) {
-                return dynamics->point_values(s, cell, values);
-              },
-              dynamics->names_of_point_values()};
-  scene.receivers.reinit(discretization, material_of_block(), stored);
-}
-
-template <int dim>
 double Simulation<dim>::expected_steps() const
 {
   if (scene.is_static())
@@ -357,6 +345,7 @@ bool Simulation<dim>::run(const OutputDirectory &directory)
           state.force = 0.;
         }
       dynamics->balance.set_initial(dynamics->total_energy(state, 0.));
+      dynamics->momentum_balance.set_initial(state, dynamics->mass, communicator);
     }
   scene.checkpoints.start(directory, state.step);
 
@@ -379,6 +368,7 @@ bool Simulation<dim>::run(const OutputDirectory &directory)
     return false;
   record_run();
   record.energy_error            = dynamics->balance.largest_error();
+  record.impulse_error           = dynamics->momentum_balance.largest_error();
   record.adaptation_core_seconds = adaptation_seconds;
   if (n_adaptations > 0)
     log << "Adapted    " << n_adaptations << " times in " << adaptation_seconds << " core-seconds ("
@@ -391,18 +381,6 @@ bool Simulation<dim>::run(const OutputDirectory &directory)
   if (n_adaptations > 0 && Utilities::MPI::n_mpi_processes(communicator) > 1)
     log << "Processes  " << describe_partition(discretization, cost_of_cells) << '\n';
   return true;
-}
-
-/// The time of the computation ends here: receivers still write, and evaluate the exact solution.
-template <int dim>
-void Simulation<dim>::finish_receivers()
-{
-  output_seconds += scene.receivers.output_seconds() * Utilities::MPI::n_mpi_processes(communicator);
-  record.core_seconds        = earlier_seconds + core_seconds(begin) - output_seconds;
-  record.output_core_seconds = output_seconds;
-  scene.receivers.finish();
-  record.errors = scene.receivers.errors();
-  record.values = scene.receivers.norms();
 }
 
 /// What the run was, and how far it is from the exact solution.
@@ -542,6 +520,7 @@ bool Simulation<dim>::adapt(const double dt_old)
       dynamics->close_force(state, dt, false);
       const Conserved<dim> after = dynamics->conserved(state, dt);
       dynamics->balance.add_adaptation(after.energy - before->energy);
+      dynamics->momentum_balance.add_adaptation(after.momentum - before->momentum);
       record.mass_error = std::max(record.mass_error, std::abs(after.mass - before->mass) / initial_mass);
       if (after.momentum_scale > 0.)
         record.momentum_error =
@@ -552,51 +531,6 @@ bool Simulation<dim>::adapt(const double dt_old)
   scene.adaptor.schedule(*dynamics);
   adaptation_seconds += core_seconds(start);
   return before.has_value();
-}
-
-template <int dim>
-void Simulation<dim>::observe(const OutputDirectory &directory, const double dt, const bool last)
-{
-  scene.receivers.record(state);
-  // Between the rows a cheap sign of trouble: the power of the last step on some process far above the energy there is.
-  bool due = last || scene.statistics.is_due(state.step);
-  if (!due && state.step % 10 == 0)
-    due = state.step <= 50 ||
-          Utilities::MPI::max(!(std::abs(step_power) * dt < 10. * known_energy) && step_power != 0. ? 1 : 0,
-                              communicator) > 0;
-  if (due)
-    {
-      const EnergyReport report = dynamics->report(state, dt);
-      scene.statistics.add(report, {state.step, dt, triangulation.n_global_active_cells(), unknowns()});
-      watch(report);
-      watch_corners();
-      known_energy = report.scale();
-    }
-  if (scene.pictures.enabled() && (last || scene.pictures.is_due(state.time, dt)))
-    write_picture(directory);
-}
-
-template <int dim>
-void Simulation<dim>::write_picture(const OutputDirectory &directory)
-{
-  const auto                 start = Clock::now();
-  std::vector<LinearElastic> materials;
-  for (const Block &block : scene.blocks)
-    {
-      materials.resize(std::max<std::size_t>(materials.size(), scene.blocks.size() == 1 ? 1 : block.material_id + 1));
-      materials[scene.blocks.size() == 1 ? 0 : block.material_id] = block.material;
-    }
-  StoredFields<dim> stored;
-  if (dynamics->gives_point_values())
-    {
-      stored.names  = dynamics->names_of_point_values();
-      stored.values = [this](const unsigned int cell, std::vector<double> &values) {
-        return dynamics->point_values(state, cell, values);
-      };
-    }
-  scene.pictures.write(directory, discretization, state.displacement, dynamics->velocity(state), materials, state.time,
-                       state.step, {}, stored);
-  output_seconds += core_seconds(start);
 }
 
 template class Simulation<1>;

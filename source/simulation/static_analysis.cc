@@ -1,4 +1,5 @@
 #include <arenite/base/errors.h>
+#include <arenite/loads/support_at_rest.h>
 #include <arenite/simulation/simulation.h>
 #include <arenite/statics/static_equilibrium.h>
 
@@ -48,10 +49,45 @@ bool Simulation<dim>::load_slowly(const OutputDirectory &directory)
   return true;
 }
 
+namespace
+{
+template <int dim>
+SupportAtRest<dim> *find_support(const Dynamics<dim> &dynamics)
+{
+  for (const auto &load : dynamics.loads)
+    if (auto *support = dynamic_cast<SupportAtRest<dim> *>(load.get()))
+      return support;
+  return nullptr;
+}
+
+/// What the supports hold of the present state, which goes on as a load.
+template <int dim>
+void keep_support(SupportAtRest<dim> &support, const bool along_normals, Dynamics<dim> &dynamics, State<dim> &state)
+{
+  state.force = 0.;
+  dynamics.compute_force(state);
+  VectorType reactions = state.force, free = state.force;
+  dynamics.constraints.project(free);
+  dynamics.constraints.hold({}, false);
+  dynamics.constraints.reinit(dynamics.discretization);
+  reactions -= free;
+  dynamics.constraints.project(reactions); // planes and fixed boundaries go on holding what is theirs
+  reactions *= -1.;
+  support.take_up(reactions, along_normals);
+  state.force = 0.;
+}
+} // namespace
+
 /// The start of a dynamic run: the equilibrium under the loads of t = 0, from the stress that the points have.
 template <int dim>
 void Simulation<dim>::find_equilibrium()
 {
+  SupportAtRest<dim> *const support = find_support(*dynamics);
+  if (support)
+    {
+      scene.constraints.hold(support->boundaries(), scene.support_at_rest == "fixed");
+      scene.constraints.reinit(discretization);
+    }
   StaticEquilibrium<dim> equilibrium(*dynamics, state, scene.statics);
   const auto             effort = equilibrium.settle(scene.statics.settling_time);
   equilibrium.release();
@@ -61,6 +97,8 @@ void Simulation<dim>::find_equilibrium()
       block.points.step       = 0;
       block.points.dissipated = block.points.viscous_work = block.points.volume_change = 0.; // before the start
     }
+  if (support)
+    keep_support(*support, scene.support_at_rest == "rollers", *dynamics, state);
   std::ostringstream text;
   text << "Equilibrium of the start: " << effort.newton << " Newton, " << effort.linear << " linear iterations, "
        << effort.residual << " of the forces out of balance";

@@ -42,7 +42,9 @@ Dynamics<dim>::Dynamics(Discretization<dim> &discretization, std::vector<std::un
   std::vector<std::string> names;
   for (const auto &load : this->loads)
     names.push_back(load->name);
-  names.push_back("prescribed motion");
+  names.push_back("constraints");
+  momentum_balance.set_names(names);
+  names.back() = "prescribed motion";
   names.push_back("hourglass viscosity");
   balance.set_names(names);
 }
@@ -167,6 +169,14 @@ void Dynamics<dim>::close_force(State<dim> &state, const double dt, const bool b
   const double    mean = 0.5 * (state.dt_last + dt);
   damping.apply(state, mean);
   constraints.apply(state, dt, mean);
+  for (unsigned int l = 0; l < loads.size(); ++l)
+    {
+      Resultants<dim> of_load;
+      loads[l]->add_resultants(of_load);
+      damping.add_resultants(l, of_load);
+      momentum_balance.set_force(l, total(of_load).force);
+    }
+  momentum_balance.set_force(loads.size(), constraints.reaction());
   if (!book_first_half)
     return;
   book_work(state, 0.5 * state.dt_last);
@@ -184,6 +194,7 @@ EnergyReport Dynamics<dim>::report(const State<dim> &state, const double dt)
   EnergyReport      result =
     balance.report(state.time, kinetic_energy(state, 0.5 * (state.dt_last + dt)), stored, discretization.communicator);
   result.stores_points = stores_points();
+  result.momentum      = momentum_balance.report(state, mass, discretization.symmetry, discretization.communicator);
   for (const auto &load : loads)
     for (LoadValue &value : load->values())
       {
@@ -191,6 +202,19 @@ EnergyReport Dynamics<dim>::report(const State<dim> &state, const double dt)
         result.values.push_back(value);
       }
   return result;
+}
+
+template <int dim>
+Resultants<dim> Dynamics<dim>::external_forces()
+{
+  Resultants<dim> sums;
+  for (unsigned int l = 0; l < loads.size(); ++l)
+    {
+      loads[l]->add_resultants(sums);
+      damping.add_resultants(l, sums);
+    }
+  constraints.add_resultants(discretization, sums);
+  return sums;
 }
 
 template <int dim>
@@ -207,6 +231,7 @@ double Dynamics<dim>::advance(State<dim> &state, const double dt)
   const Stopwatch watch(cost ? &cost->update : nullptr);
   const double    mean        = 0.5 * (state.dt_last + dt);
   const double    power_after = central_difference(state, dt, mean);
+  momentum_balance.advance(mean);
   book_work(state, 0.5 * dt);
   balance.add_step_change(0.5 * (mean - dt) * power_after);
   for (const auto &load : loads)

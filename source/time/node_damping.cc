@@ -17,14 +17,15 @@ void NodeDamping<dim>::reinit(const std::vector<std::unique_ptr<Load<dim>>> &loa
       {
         DampingBlocks<dim> blocks = *damping;
         constraints.project(blocks);
-        for (const auto &[node, D] : blocks)
+        for (DampingBlock<dim> &block : blocks)
           {
-            const auto [entry, is_new] = position.emplace(node, nodes.size());
+            const auto [entry, is_new] = position.emplace(block.node, nodes.size());
             if (is_new)
-              nodes.push_back({node, SymmetricTensor<2, dim>(), Tensor<1, dim>()});
-            nodes[entry->second].damping += D;
-            per_load[l].push_back({entry->second, D});
+              nodes.push_back({block.node, SymmetricTensor<2, dim>(), Tensor<1, dim>()});
+            nodes[entry->second].damping += block.value;
+            block.node = entry->second;
           }
+        per_load[l].swap(blocks);
       }
 }
 
@@ -53,13 +54,24 @@ template <int dim>
 double NodeDamping<dim>::power(const unsigned int index, const VectorType &half_velocity) const
 {
   double sum = 0.;
-  for (const auto &[position, D] : per_load[index])
+  for (const DampingBlock<dim> &block : per_load[index])
     {
-      const Tensor<1, dim> force = D * nodes[position].velocity;
+      const Node          &node  = nodes[block.node];
+      const Tensor<1, dim> force = block.value * node.velocity;
       for (unsigned int c = 0; c < dim; ++c)
-        sum -= force[c] * half_velocity.local_element(dim * nodes[position].node + c);
+        sum -= force[c] * half_velocity.local_element(dim * node.node + c);
     }
   return sum;
+}
+
+template <int dim>
+void NodeDamping<dim>::add_resultants(const unsigned int index, Resultants<dim> &sums) const
+{
+  for (const DampingBlock<dim> &block : per_load[index])
+    {
+      const Tensor<1, dim> force = -1. * (block.value * nodes[block.node].velocity);
+      sums[block.boundary] += {force, force * block.normal};
+    }
 }
 
 template class NodeDamping<1>;

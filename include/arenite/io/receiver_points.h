@@ -8,6 +8,10 @@
 
 namespace Arenite
 {
+/// Words of `Type` of a set of receivers, those of points first; and its sentence in the manual.
+const std::vector<std::string> &receiver_types();
+extern const char *const        receiver_type_sentence;
+
 /// Names and places of one set of receivers, as a scene gives them.
 ///
 /// Points and directions may be given in three dimensions in every scene, see reduce().

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <arenite/io/balance_receiver.h>
 #include <arenite/io/receiver_history.h>
 #include <arenite/io/receiver_points.h>
 #include <arenite/io/receiver_store.h>
 #include <arenite/mechanics/state.h>
+
+#include <list>
 
 namespace Arenite
 {
@@ -132,7 +135,10 @@ class ReceiverSets
 public:
   void declare_parameters(Parameters &);
   void finalize(const Parameters &);
+  void finalize(const Parameters &, const Geometry<dim> &);
+  /// Of points alone, of a motion that comes from anywhere.
   void reinit(const Discretization<dim> &, const MaterialOfBlock &, const StoredPointValues<dim> & = {});
+  void reinit(Dynamics<dim> &, const StoredPointValues<dim> & = {});
   /// @p start: whether files are created, or there already; exchange() must follow then.
   void open(const std::string &directory, double start_time, double end_time, const ExactSolution<dim> *exact,
             FileStart start = FileStart::fresh);
@@ -144,9 +150,15 @@ public:
   std::map<std::string, double> norms() const;
   double                        output_seconds() const; ///< of all sets
 
+  /// Whether some sets are balances of steps.
+  bool has_balances() const { return !balances.empty(); }
+
 private:
   std::vector<std::string>                     names;
   std::shared_ptr<ReceiverStore>               store; // before the sets, which close their groups first
   std::vector<std::unique_ptr<Receivers<dim>>> sets;
+
+  std::list<std::string>                             types; ///< what `set Type` of a balance binds to
+  std::vector<std::unique_ptr<BalanceReceiver<dim>>> balances;
 };
 } // namespace Arenite

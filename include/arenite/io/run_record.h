@@ -30,7 +30,7 @@ struct RunRecord
   double setup_core_seconds = 0., core_seconds = 0., output_core_seconds = 0.;
   double adaptation_core_seconds = 0.; ///< part of core_seconds
 
-  double energy_error = 0., mass_error = 0., momentum_error = 0.;
+  double energy_error = 0., impulse_error = 0., mass_error = 0., momentum_error = 0.;
   double dissipation = 0., artificial_dissipation = 0.,
          hourglass_energy         = 0.;    ///< by laws; by bulk viscosity; full body [J]
   bool          is_static         = false; ///< steps are those of a load; no energy balance

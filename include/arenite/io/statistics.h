@@ -76,7 +76,7 @@ private:
 
   EnergyReport  last;
   StepInfo      last_info;
-  double        last_error = 0., largest_scale = 0., work = 0.;
+  double        last_error = 0., largest_scale = 0., largest_momentum = 0., work = 0.;
   std::uint64_t n_rows = 0;
 
   bool              printed_last = true;

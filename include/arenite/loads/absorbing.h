@@ -32,16 +32,20 @@ public:
   void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override;
+  void        add_resultants(Resultants<dim> &) const override;
   void        finish_step(const VectorType &half_velocity, double dt) override;
   bool        admits(Reduction &, const Parameters &) const override;
   std::string description() const override;
   const std::vector<std::string> &boundaries() const { return boundary_names; }
   const DampingBlocks<dim>       *damping() const override { return &dashpots; }
-  const VectorType               *nodal_state() const override { return spherical() ? &memory : nullptr; }
-  void                            set_nodal_state(const VectorType &) override;
+  std::vector<const VectorType *> nodal_states() const override;
+  void                            set_nodal_states(const std::vector<VectorType> &) override;
 
 private:
   bool spherical() const { return condition == "spherical"; }
+
+  void make_dashpots(const Discretization<dim> &, const MaterialOfBlock &);
+  void make_springs(const Discretization<dim> &, const MaterialOfBlock &);
 
   struct SphericalNode
   {
@@ -77,6 +81,7 @@ public:
   void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &, const State<dim> &) override {}
   double      power(const VectorType &) const override { return 0.; }
+  void        add_resultants(Resultants<dim> &) const override {}
   bool        admits(Reduction &, const Parameters &) const override;
   std::string description() const override { return "sponge layer"; }
   const DampingBlocks<dim> *damping() const override { return &dashpots; }

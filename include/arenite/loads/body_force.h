@@ -20,6 +20,7 @@ public:
   void   reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void   add(VectorType &force, const State<dim> &) override;
   double power(const VectorType &half_velocity) const override;
+  void   add_resultants(Resultants<dim> &) const override;
   bool   admits(Reduction &form, const Parameters &) const override
   {
     return n_hoop_directions(form.form) > 0 && solution->is_radial();

@@ -27,11 +27,25 @@ public:
     exact_solution = solution;
   }
 
+  /// Hold boundaries besides, from the next reinit() on: along their mean normals or @p fully. No boundary: not any more.
+  void hold(const std::vector<dealii::types::boundary_id> &ids, bool fully)
+  {
+    held       = ids;
+    held_fully = fully;
+  }
+
   /// Nodal lists for the present mesh. Dashpot blocks of constrained nodes lose their constrained directions.
   void reinit(const Discretization<dim> &);
 
   /// Replace the forces of constrained nodes so that the update over @p dt with mean step @p mean keeps them on their motion.
   void apply(State<dim> &, double dt, double mean);
+
+  /// Sum of the forces that the last apply() put on the nodes of this process.
+  const dealii::Tensor<1, dim> &reaction() const { return whole_reaction; }
+
+  /// The same by boundary. What several boundaries hold at a node they share like springs side by side, of a stiffness that goes with
+  /// their area there: planes along their normals, prescribed motions along their direction, others in all directions.
+  void add_resultants(const Discretization<dim> &, Resultants<dim> &);
 
   /// Sum of (reaction . v) [W] of prescribed motions, from the last apply().
   double power(const VectorType &half_velocity) const;
@@ -79,13 +93,30 @@ private:
     dealii::Tensor<1, dim> direction, reaction;
   };
 
+  /// What a boundary takes of the reaction of a node.
+  struct Part
+  {
+    unsigned int               node; ///< position in held_nodes
+    dealii::types::boundary_id boundary;
+    dealii::Tensor<2, dim>     share;
+    dealii::Tensor<1, dim>     normal;
+  };
+
   void make_prescribed_nodes(const Discretization<dim> &);
+  void make_parts(const Discretization<dim> &);
 
   std::vector<std::string>                         symmetry_names{"auto"}, fixed_names, prescribed_names, exact_names;
-  std::vector<dealii::types::boundary_id>          symmetry, fixed, exact;
+  std::vector<dealii::types::boundary_id>          symmetry, fixed, exact, held;
+  bool                                             held_fully = false;
   std::vector<std::unique_ptr<PrescribedBoundary>> prescribed;
   Projectors                                       projectors;
   std::vector<PrescribedNode>                      prescribed_nodes;
   std::vector<std::pair<PrescribedNode, dealii::Point<dim>>> exact_nodes;
+  dealii::Tensor<1, dim>                                     whole_reaction;
+  std::vector<dealii::Tensor<1, dim>>                        plane_reactions; ///< at the nodes of projectors
+  std::vector<Part>                                          parts;
+  std::vector<unsigned int>                                  held_nodes; ///< with parts, ascending
+  std::vector<dealii::Tensor<1, dim>>                        held_reactions;
+  bool                                                       knows_parts = false;
 };
 } // namespace Arenite

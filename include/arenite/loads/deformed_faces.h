@@ -1,5 +1,6 @@
 #pragma once
 
+#include <arenite/loads/resultant.h>
 #include <arenite/mechanics/discretization.h>
 
 #include <array>
@@ -25,6 +26,9 @@ public:
   /// displacement with valid ghosts and hanging nodes, allocates nothing. Only entries at nodes() are of interest. Collective.
   const VectorType &areas(const VectorType &displacement);
 
+  /// integral of n dA and of dA over the faces of this process at the last areas(), one entry per boundary: forces under a pull of 1 Pa.
+  const std::vector<Resultant<dim>> &sums() const { return sum; }
+
   /// Owned nodes with an area of any displacement, ascending.
   const std::vector<unsigned int> &nodes() const { return owned_nodes; }
 
@@ -49,8 +53,11 @@ private:
   std::vector<Share>         shares;             ///< the same for all faces
   std::vector<unsigned int>  face_nodes;         ///< n local nodes per face
   std::vector<double>        sign;               ///< per face
+  std::vector<unsigned int>  boundary;           ///< per face, position in the list of ids
   std::vector<unsigned int>  owned_nodes, touched_nodes;
   VectorType                 area;
+
+  std::vector<Resultant<dim>> sum;
 
   std::vector<dealii::Point<dim>>     position; ///< nodes of the present face
   std::vector<dealii::Tensor<1, dim>> part;     ///< their areas

@@ -86,11 +86,13 @@ public:
   void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override;
+  void        add_resultants(Resultants<dim> &) const override;
   std::string description() const override;
 
 private:
   GeostaticStress<dim> &stress;
   const bool            one_point; ///< cells have one stress: on each face that of its middle acts
   NodalForces<dim>      traction;
+  Resultants<dim>       whole;
 };
 } // namespace Arenite

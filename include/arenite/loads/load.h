@@ -3,6 +3,7 @@
 #include <arenite/base/registry.h>
 #include <arenite/base/time_history.h>
 #include <arenite/loads/boundary_faces.h>
+#include <arenite/loads/resultant.h>
 #include <arenite/mechanics/cell_fields.h>
 #include <arenite/mechanics/state.h>
 #include <arenite/mesh/geometry.h>
@@ -17,8 +18,18 @@ namespace Arenite
 {
 class StateArchive;
 
+/// Dashpots of a node [N s/m], on the faces of one boundary or inside of the body.
 template <int dim>
-using DampingBlocks = std::vector<NodeValue<dealii::SymmetricTensor<2, dim>>>;
+struct DampingBlock
+{
+  unsigned int                    node;
+  dealii::SymmetricTensor<2, dim> value;
+  dealii::types::boundary_id      boundary = inside;
+  dealii::Tensor<1, dim>          normal   = {}; ///< unit, out of the body; zero inside
+};
+
+template <int dim>
+using DampingBlocks = std::vector<DampingBlock<dim>>; ///< a node may come more than once
 
 /// Lumped mass of a mesh, one entry per node [kg].
 struct NodalMass
@@ -63,9 +74,12 @@ public:
   /// Sum over nodes of f_n . v [W], the force of the last add().
   virtual double power(const VectorType &half_velocity) const = 0;
 
-  /// Own state that must survive a change of the mesh: one scalar per node (zero elsewhere).
-  virtual const VectorType *nodal_state() const { return nullptr; }
-  virtual void              set_nodal_state(const VectorType &) {}
+  /// What the last add() put on the nodes of this process, without dashpots, by boundary. Called in every step.
+  virtual void add_resultants(Resultants<dim> &) const = 0;
+
+  /// Own state that must survive a change of the mesh: as many scalars per node (zero elsewhere), on any mesh. The setter is collective.
+  virtual std::vector<const VectorType *> nodal_states() const { return {}; }
+  virtual void                            set_nodal_states(const std::vector<VectorType> &) {}
 
   /// Own state besides, for a checkpoint.
   virtual void exchange(StateArchive &) {}

@@ -31,6 +31,16 @@ double power_of(const NodalForces<dim> &list, const double factor, const VectorT
   return factor * sum;
 }
 
+/// Sum of the forces.
+template <int dim>
+Resultant<dim> resultant_of(const NodalForces<dim> &list, const double factor)
+{
+  Resultant<dim> sum;
+  for (const auto &[node, value] : list)
+    sum.force += value;
+  return factor * sum;
+}
+
 /// One pressure on named boundaries: f_i = -p integral of N_i n dA, on the undeformed surface or, with finite strain, on the deformed
 /// one of each time. What p is a subclass says in add():
 ///
@@ -45,6 +55,7 @@ public:
   void        use_finite_strain() override { follows_surface = true; }
   void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   double      power(const VectorType &half_velocity) const override { return power_of(area, factor, half_velocity); }
+  void        add_resultants(Resultants<dim> &) const override;
   bool        admits(Reduction &form, const Parameters &) const override { return form.keeps(ids); }
   std::string description() const override;
   std::vector<dealii::types::boundary_id> loaded_boundaries() const override { return ids; }
@@ -67,6 +78,7 @@ private:
   std::vector<dealii::types::boundary_id> ids;
   DeformedFaces<dim>                      faces;       ///< if it follows the surface
   double                                  factor = 0.; ///< -p(t_n)
+  std::vector<Resultant<dim>>             whole;       ///< of the pressure -1 on each of the boundaries
 };
 
 /// Pressure p(t), a history.
@@ -94,6 +106,7 @@ public:
   void        reinit(const Discretization<dim> &, const NodalMass &mass, const MaterialOfBlock &) override;
   void        add(VectorType &force, const State<dim> &) override;
   double      power(const VectorType &half_velocity) const override { return power_of(weight, factor, half_velocity); }
+  void        add_resultants(Resultants<dim> &sums) const override { sums[inside] += factor * whole; }
   bool        admits(Reduction &, const Parameters &) const override;
   std::string description() const override;
 
@@ -105,6 +118,7 @@ private:
   dealii::Tensor<1, dim> acceleration;
   HistoryChoice          history;
   NodalForces<dim>       weight;
+  Resultant<dim>         whole;
   double                 factor = 0.;
 };
 } // namespace Arenite

@@ -34,7 +34,7 @@ public:
 
   const std::vector<std::string> &boundary_names() const { return names; }
 
-  /// Ids of the boundaries in @p list; refuses unknown names at @p path with the nearest known one.
+  /// Ids of the boundaries in @p list, each once; refuses unknown names at @p path with the nearest known one.
   std::vector<dealii::types::boundary_id> boundary_ids(const Parameters &, const std::string &path,
                                                        const std::vector<std::string> &list) const;
 

@@ -57,7 +57,7 @@ struct Scene
   std::vector<Block>                        blocks;
   std::vector<std::unique_ptr<Load<dim>>>   loads;
   Constraints<dim>                          constraints;
-  std::string                               initial_state = "rest";
+  std::string                               initial_state = "rest", support_at_rest = "rollers";
   InitialVelocity<dim>                      initial_velocity;
   InitialEnergy<dim>                        initial_energy;
   GeostaticStress<dim>                      stress_at_rest;
@@ -75,6 +75,7 @@ struct Scene
 private:
   void declare_parameters(Parameters &);
   void finalize(Parameters &);
+  void support_absorbing_boundaries(const Parameters &);
   void refuse_motion(const Parameters &) const;
 
   std::string              dimension = "3", symmetry_name = "none"; ///< what DimensionChoice has read already

@@ -3,6 +3,7 @@
 #include <arenite/mechanics/internal_force.h>
 #include <arenite/time/central_difference.h>
 #include <arenite/time/energy_balance.h>
+#include <arenite/time/momentum_balance.h>
 #include <arenite/time/node_damping.h>
 
 #include <optional>
@@ -66,8 +67,11 @@ public:
   /// mesh that half was already booked with the old forces: @p book_first_half = false.
   void close_force(State<dim> &, double dt, bool book_first_half = true);
 
-  /// Energies at t_n, between close_force() and advance(). Collective.
+  /// Energies and momentum at t_n, between close_force() and advance(). Collective.
   EnergyReport report(const State<dim> &, double dt);
+
+  /// Forces of t_n from outside on the nodes of this process, after close_force(): loads, dashpots, constraints. By boundary.
+  Resultants<dim> external_forces();
 
   /// Kinetic and stored energy at t_n, summed over processes, without an entry in the balance. Collective.
   double total_energy(const State<dim> &, double dt) const;
@@ -104,6 +108,7 @@ public:
   std::vector<std::unique_ptr<Load<dim>>>          loads;
   Constraints<dim>                                &constraints;
   EnergyBalance                                    balance;
+  MomentumBalance<dim>                             momentum_balance;
   VectorType                                       mass; ///< per node [kg], zero at hanging nodes
   MaterialOfBlock                                  material_of_block;
   std::optional<StepCost>                          cost; ///< measured if it is there; set it before reinit()

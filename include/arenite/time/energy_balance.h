@@ -12,6 +12,13 @@ namespace Arenite
 {
 class StateArchive;
 
+/// Momentum of the modelled part at t_n and what explains it, by direction [N s]; see MomentumBalance.
+struct MomentumLedger
+{
+  std::vector<std::pair<std::string, double>> columns;
+  double                                      imbalance = 0., scale = 0.; ///< scale: of the largest momentum or impulse
+};
+
 /// Where energy came from and went to, up to t_n [J], summed over processes.
 struct EnergyReport
 {
@@ -22,6 +29,7 @@ struct EnergyReport
   std::vector<std::pair<std::string, double>> work; ///< by load and by prescribed motion, positive into the body
   double                                      step_changes = 0., adaptation = 0.;
   std::vector<LoadValue>                      values; ///< of the loads, with their names
+  MomentumLedger                              momentum;
 
   /// Two independent ledgers: what loads gave must be what points and nodes hold.
   double imbalance() const;

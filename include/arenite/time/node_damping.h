@@ -22,6 +22,9 @@ public:
   /// Sum of f_D . v of load @p index [W], from the last apply().
   double power(unsigned int index, const VectorType &half_velocity) const;
 
+  /// f_D of load @p index, from the last apply().
+  void add_resultants(unsigned int index, Resultants<dim> &) const;
+
 private:
   struct Node
   {
@@ -29,7 +32,7 @@ private:
     dealii::SymmetricTensor<2, dim> damping;
     dealii::Tensor<1, dim>          velocity; ///< v_n
   };
-  std::vector<Node>                                                    nodes;
-  std::vector<std::vector<NodeValue<dealii::SymmetricTensor<2, dim>>>> per_load; ///< node: index into nodes
+  std::vector<Node>               nodes;
+  std::vector<DampingBlocks<dim>> per_load; ///< node: index into nodes
 };
 } // namespace Arenite
