@@ -171,7 +171,8 @@ void Dynamics<dim>::close_force(State<dim> &state, const double dt, const bool b
   constraints.apply(state, dt, mean);
   for (unsigned int l = 0; l < loads.size(); ++l)
     {
-      Resultants<dim> of_load;
+      for (auto &[id, resultant] : of_load)
+        resultant = {};
       loads[l]->add_resultants(of_load);
       damping.add_resultants(l, of_load);
       momentum_balance.set_force(l, total(of_load).force);

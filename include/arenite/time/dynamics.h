@@ -117,5 +117,6 @@ private:
   void book_work(const State<dim> &, double half_step);
 
   NodeDamping<dim> damping;
+  Resultants<dim>  of_load; ///< of one after the other, in a step that allocates nothing
 };
 } // namespace Arenite
