@@ -15,7 +15,7 @@ constexpr const char *one_of_each = R"(
 set End time = 1
 set Blocks = solid
 set Loads = pressure, gas pressure, gravity, absorbing boundary, sponge
-set Receivers = points, line, plane
+set Receivers = points, line, plane, surface, box
 subsection Materials
   subsection solid
     set Density = 2000
@@ -64,6 +64,15 @@ subsection Receivers
     set Start = 0.1, 0, 0
     set End = 0.4, 0, 0
     set Interval = 0.1
+  end
+  subsection surface
+    set Type = surface
+    set Boundary = cavity
+  end
+  subsection box
+    set Type = box
+    set Corner = 0.1, 0, 0
+    set Opposite corner = 0.2, 0.1, 0.1
   end
   subsection plane
     set Type = plane
