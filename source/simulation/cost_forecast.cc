@@ -43,9 +43,9 @@ private:
   const bool is_mine;
 };
 
-/// The scene with @p levels levels and without pictures.
-RunRecord trial(const RunOptions &options, const unsigned int levels, const std::string &path,
-                const MPI_Comm communicator)
+/// The scene with @p levels levels and without pictures; nothing if it was asked to stop.
+std::optional<RunRecord> trial(const RunOptions &options, const unsigned int levels, const std::string &path,
+                               const MPI_Comm communicator)
 {
   auto overrides = options.overrides;
   for (const char *entry : {"Output/VTU interval=0", "Output/Checkpoint interval=0", "Output/Checkpoint steps=0",
@@ -54,14 +54,15 @@ RunRecord trial(const RunOptions &options, const unsigned int levels, const std:
   overrides.push_back("Adaptivity/Levels=" + std::to_string(levels));
   Parameters            parameters = Parameters::from_files(options.scenes, overrides);
   const OutputDirectory directory(path, options.scenes.front(), OutputDirectory::Mode::overwrite, communicator);
-  return with_dimension(parameters, [&](const auto dim) {
+  return with_dimension(parameters, [&](const auto dim) -> std::optional<RunRecord> {
     Log                              silent(communicator, true);
     Scene<decltype(dim)::value>      scene(parameters);
     Simulation<decltype(dim)::value> simulation(scene, silent, communicator);
     simulation.parameters = parameters.values();
     simulation.set_up();
     directory.create();
-    simulation.run(directory);
+    if (!simulation.run(directory))
+      return {};
     simulation.record.measure_memory(communicator);
     return simulation.record;
   });
@@ -80,7 +81,10 @@ std::optional<CostForecast> forecast_cost(const RunOptions &options, const unsig
   // all processes have the same times, of the slowest
   while (trials.size() < levels && Utilities::MPI::max(next, communicator) < longest_trial * ranks)
     {
-      trials.push_back(trial(options, static_cast<unsigned int>(trials.size()), scratch.path, communicator));
+      const auto record = trial(options, static_cast<unsigned int>(trials.size()), scratch.path, communicator);
+      if (!record)
+        return {};
+      trials.push_back(*record);
       const RunRecord &last = trials.back();
       spent += last.core_seconds;
       next = last.core_seconds * std::pow(2., last.dimension + 1.);
