@@ -10,23 +10,10 @@
 Columns are named without their units, with the wild cards of the shell. All files get the same ones; more than one file is told apart by its
 kind of line. Needs python3-matplotlib.
 """
-import argparse, csv, fnmatch, sys
+import argparse, fnmatch, sys
 from pathlib import Path
-
-try:
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-except ImportError:
-    sys.exit("the figures need matplotlib (Debian: apt-get install python3-matplotlib)")
-
-
-def table(file):
-    """Column name without unit -> numbers; and the full names."""
-    with open(file, newline="") as stream:
-        lines = [line for line in csv.reader(stream) if line and not line[0].startswith("#")]
-    short = [name.split(" [")[0].strip() for name in lines[0]]
-    return {name: [float(line[i]) for line in lines[1:]] for i, name in enumerate(short)}, dict(zip(short, lines[0]))
+import plot_material
+from plot_material import plt
 
 
 def arguments():
@@ -51,7 +38,9 @@ def main():
     plt.rcParams.update({"svg.hashsalt": "arenite", "svg.fonttype": "none", "font.size": 10})
     drawing, axes = plt.subplots(figsize=(6.4, 3.8), constrained_layout=True)
     for file, style, of in zip(options.files, ("-", "--", ":", "-."), options.names or [""] * len(options.files)):
-        columns, full = table(file)
+        numbers = plot_material.columns(file)
+        full = {plot_material.without_unit(name): name for name in numbers}
+        columns = plot_material.table(file)
         x = options.x or next(iter(columns))
         chosen = [name for pattern in options.y for name in columns if fnmatch.fnmatchcase(name, pattern)]
         if x not in columns or not chosen:

@@ -16,11 +16,20 @@ except ImportError:
     sys.exit("the figures need matplotlib (Debian: apt-get install python3-matplotlib)")
 
 
-def table(file):
-    """Column name without unit -> list of numbers."""
+def columns(file):
+    """Name of a column with its unit -> list of numbers."""
     with open(file, newline="") as stream:
         lines = [line for line in csv.reader(stream) if line and not line[0].startswith("#")]
-    return {name.split(" [")[0]: [float(line[i]) for line in lines[1:]] for i, name in enumerate(lines[0])}
+    return {name: [float(line[i]) for line in lines[1:]] for i, name in enumerate(lines[0])}
+
+
+def without_unit(name):
+    return name.split(" [")[0].strip()
+
+
+def table(file):
+    """Column name without unit -> list of numbers."""
+    return {without_unit(name): numbers for name, numbers in columns(file).items()}
 
 
 def entries(file):

@@ -240,6 +240,19 @@ void Sponge<dim>::reinit(const Discretization<dim> &discretization, const NodalM
     }
 }
 
+template <int dim>
+std::vector<std::string> absorbing_boundaries(const std::vector<std::unique_ptr<Load<dim>>> &loads)
+{
+  std::vector<std::string> names;
+  for (const auto &load : loads)
+    if (const auto *boundary = dynamic_cast<const AbsorbingBoundary<dim> *>(load.get()))
+      names.insert(names.end(), boundary->boundaries().begin(), boundary->boundaries().end());
+  return names;
+}
+
+template std::vector<std::string> absorbing_boundaries(const std::vector<std::unique_ptr<Load<1>>> &);
+template std::vector<std::string> absorbing_boundaries(const std::vector<std::unique_ptr<Load<2>>> &);
+template std::vector<std::string> absorbing_boundaries(const std::vector<std::unique_ptr<Load<3>>> &);
 template class AbsorbingBoundary<1>;
 template class AbsorbingBoundary<2>;
 template class AbsorbingBoundary<3>;

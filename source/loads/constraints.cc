@@ -289,13 +289,10 @@ void Constraints<dim>::make_parts(const Discretization<dim> &discretization)
       SymmetricTensor<2, dim> K;
       for (const Part &part : list)
         K += symmetrize(part.share);
-      Tensor<2, dim> inverse; // on what is held
-      for (const auto &[value, m] : eigenvectors(K))
-        if (value > 1e-8 * trace(K))
-          inverse += outer_product(m, m) / value;
+      const Tensor<2, dim> flexibility(flexibility_where_held(K));
       for (Part &part : list)
         {
-          part.share = part.share * inverse;
+          part.share = part.share * flexibility;
           part.node  = held_nodes.size() - 1;
           parts.push_back(part);
         }

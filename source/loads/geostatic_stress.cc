@@ -50,22 +50,19 @@ void GeostaticStress<dim>::finalize(const Parameters &parameters, const Geometry
 {
   if (!is_wanted())
     return;
-  past                           = new_past;
-  bool                     found = false;
-  std::vector<std::string> absorbing;
+  past       = new_past;
+  bool found = false;
   for (const auto &load : loads)
     if (const auto *weight = dynamic_cast<const Gravity<dim> *>(load.get()))
       {
         gravity += weight->at_rest();
         found = true;
       }
-    else if (const auto *boundary = dynamic_cast<const AbsorbingBoundary<dim> *>(load.get()))
-      absorbing.insert(absorbing.end(), boundary->boundaries().begin(), boundary->boundaries().end());
   if (!found || gravity.norm() == 0.)
     parameters.refuse(path + "/Stress", "needs a load of 'Type = gravity' that acts at t = 0");
   down = gravity / gravity.norm();
   if (held_boundaries == std::vector<std::string>{"auto"})
-    held_boundaries = absorbing;
+    held_boundaries = absorbing_boundaries(loads);
   held_ids = geometry.boundary_ids(parameters, path + "/Held boundaries", held_boundaries);
 }
 

@@ -38,6 +38,19 @@ std::vector<NodeFaces<dim>> faces_of_nodes(const Discretization<dim>            
   return result;
 }
 
+template <int dim>
+SymmetricTensor<2, dim> flexibility_where_held(const SymmetricTensor<2, dim> &K)
+{
+  SymmetricTensor<2, dim> inverse;
+  for (const auto &[value, m] : eigenvectors(K))
+    if (value > 1e-8 * trace(K))
+      inverse += symmetrize(outer_product(m, m)) / value;
+  return inverse;
+}
+
+template SymmetricTensor<2, 1>     flexibility_where_held(const SymmetricTensor<2, 1> &);
+template SymmetricTensor<2, 2>     flexibility_where_held(const SymmetricTensor<2, 2> &);
+template SymmetricTensor<2, 3>     flexibility_where_held(const SymmetricTensor<2, 3> &);
 template std::vector<NodeFaces<1>> faces_of_nodes(const Discretization<1> &, const std::vector<types::boundary_id> &,
                                                   bool);
 template std::vector<NodeFaces<2>> faces_of_nodes(const Discretization<2> &, const std::vector<types::boundary_id> &,

@@ -54,15 +54,9 @@ void SupportAtRest<dim>::take_up(const VectorType &reactions, const bool along_n
         for (unsigned int c = 0; c < dim; ++c)
           R[c] = reactions.local_element(dim * at.node + c);
         // faces of one boundary whose normals differ a little hold the node in the mean direction only
-        const SymmetricTensor<2, dim> &K = all.at(at.node);
-        Tensor<1, dim>                 extension, rest = R;
-        for (const auto &[value, m] : eigenvectors(K))
-          if (value > 1e-8 * trace(K))
-            {
-              extension += (m * R) / value * m;
-              rest -= (m * R) * m;
-            }
-        const Tensor<1, dim> f = stiffness(at) * extension + trace(stiffness(at)) / trace(K) * rest;
+        const SymmetricTensor<2, dim> &K         = all.at(at.node);
+        const Tensor<1, dim>           extension = flexibility_where_held(K) * R, rest = R - K * extension;
+        const Tensor<1, dim>           f = stiffness(at) * extension + trace(stiffness(at)) / trace(K) * rest;
         for (unsigned int c = 0; c < dim; ++c)
           traction[dim * b + c].local_element(at.node) = f[c] / at.size;
         force_on[b] += f;

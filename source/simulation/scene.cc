@@ -183,19 +183,13 @@ void Scene<dim>::finalize(Parameters &parameters)
     loads.push_back(std::make_unique<BodyForce<dim>>(exact_solution));
 }
 
-/// Dashpots hold nothing at rest.
 template <int dim>
 void Scene<dim>::support_absorbing_boundaries(const Parameters &parameters)
 {
-  std::vector<std::string> names;
-  for (const auto &load : loads)
-    if (const auto *boundary = dynamic_cast<const AbsorbingBoundary<dim> *>(load.get()))
-      names.insert(names.end(), boundary->boundaries().begin(), boundary->boundaries().end());
-  if (names.empty())
-    return;
-  loads.push_back(
-    std::make_unique<SupportAtRest<dim>>(mesh.geometry->boundary_ids(parameters, "Initial conditions/State", names),
-                                         names));
+  if (const auto names = absorbing_boundaries(loads); !names.empty())
+    loads.push_back(
+      std::make_unique<SupportAtRest<dim>>(mesh.geometry->boundary_ids(parameters, "Initial conditions/State", names),
+                                           names));
 }
 
 /// What has no meaning where nothing moves, in the whole run or at its start.

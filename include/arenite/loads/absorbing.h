@@ -92,4 +92,8 @@ private:
   double                 start = 1., end = 2., reflection = 1e-3;
   DampingBlocks<dim>     dashpots;
 };
+
+/// Names of all boundaries behind which the solid goes on: dashpots hold nothing at rest, something else has to.
+template <int dim>
+std::vector<std::string> absorbing_boundaries(const std::vector<std::unique_ptr<Load<dim>>> &loads);
 } // namespace Arenite

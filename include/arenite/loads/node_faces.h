@@ -30,4 +30,9 @@ struct NodeFaces
 template <int dim>
 std::vector<NodeFaces<dim>> faces_of_nodes(const Discretization<dim> &,
                                            const std::vector<dealii::types::boundary_id> &ids, bool condense);
+
+/// K^-1 on the directions in which springs of the stiffness @p K hold a node, zero on the others. Of the reaction R of the node springs side by side
+/// take K_b K^-1 R each.
+template <int dim>
+dealii::SymmetricTensor<2, dim> flexibility_where_held(const dealii::SymmetricTensor<2, dim> &K);
 } // namespace Arenite
