@@ -79,7 +79,7 @@ def cap(form, refinement, adaptive, ranks):
 
 
 SHOCK = {"Adaptivity/Indicator": "shock front, velocity jump"}
-FOOT = {**SHOCK, "Adaptivity/Refine above": .04, "Adaptivity/Coarsen below": .01}  # the precursor has a tenth of the pressure
+FOOT = {**SHOCK, "Adaptivity/Refine above": .012, "Adaptivity/Coarsen below": .004, "Adaptivity/Layers behind": 4}  # the precursor has a tenth of the pressure
 CAVITY = {"Adaptivity/Indicator": "velocity jump, stress gradient", "Adaptivity/Refine above": .1, "Adaptivity/Coarsen below": .02}
 WAVE = {"Adaptivity/Refine above": .1, "Adaptivity/Coarsen below": .03}
 CASES = {  # name -> problem, form, indicators, equal meshes, (size, levels) of adaptive meshes
@@ -87,11 +87,12 @@ CASES = {  # name -> problem, form, indicators, equal meshes, (size, levels) of 
     "elastic pulse, meridian plane": (pulse, 2, WAVE, (1, 2, 3, 4, 5), ((1, 2), (1, 3), (2, 2))),
     "elastic pulse, octant": (pulse, 3, WAVE, (1, 2, 3, 4), ((1, 1), (1, 2), (1, 3))),
     "soil, plane wave": (soil, 1, FOOT, (100, 200, 400, 800, 1600), ((50, 3), (100, 3), (100, 4))),
-    "soil, brick": (soil, 3, FOOT, (100, 200, 400), ((25, 2), (25, 3), (50, 3))),
+    "soil, brick": (soil, 3, FOOT, (100, 200, 400, 800), ((25, 2), (25, 3), (50, 3), (100, 3))),
     "blast, radius": (blast, 1, SHOCK, (100, 200, 400, 800), ((50, 2), (50, 3), (50, 4))),
     "cap cavity, radius": (cap, 1, CAVITY, (1, 2, 3, 4), ((1, 2), (1, 3), (1, 4))),
     "cap cavity, meridian plane": (cap, 2, CAVITY, (1, 2, 3, 4), ((1, 1), (1, 2), (1, 3))),
     "cap cavity, octant": (cap, 3, CAVITY, (1, 2, 3), ((1, 1), (1, 2)))}
+TWO_RANKS = {"elastic pulse, octant": (3, (1, 2)), "soil, brick": (200, (25, 3)), "cap cavity, octant": (3, (1, 2))}  # equal, adaptive
 QUICK = {"cap cavity, radius": ((1, 2), ((1, 1),)), "soil, plane wave": ((100,), ((50, 1),)), "elastic pulse, radius": ((2,), ((1, 1),)), "blast, radius": ((100,), ((50, 1),))}
 summary = []
 for name, (problem, form, indicators, ladder, meshes) in CASES.items():
@@ -110,12 +111,12 @@ for name, (problem, form, indicators, ladder, meshes) in CASES.items():
     for size in ladder:
         measure("equal cells", size)
     for size, levels in meshes:
-        for layers in study.choose((4, 8, 16), quick=(8,)):
+        for layers in study.choose((16,) if size * 2 ** levels >= 800 and form == 3 else (4, 8, 16), quick=(8,)):
             measure("adaptive", size, levels, layers)
-    if form == 3:
-        measure("equal cells", ladder[-2], ranks=2)
-        best = min(rows["adaptive", 1], key=lambda row: row["error"] * row["core_seconds"])
-        measure("adaptive", best["size"], best["levels"], best["layers"], ranks=2)
+    if name in TWO_RANKS:
+        equal, (size, levels) = TWO_RANKS[name]
+        measure("equal cells", equal, ranks=2)
+        measure("adaptive", size, levels, 16, ranks=2)
     for target in sorted({row["error"] for row in rows["equal cells", 1]}):
         best = {kind: tuning.cheapest(rows[kind, 1], 1.02 * target) for kind in ("equal cells", "adaptive")}
         if all(best.values()):

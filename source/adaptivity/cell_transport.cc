@@ -1,5 +1,4 @@
 #include <arenite/adaptivity/cell_transport.h>
-#include <arenite/adaptivity/field_transfer.h>
 
 #include <boost/range/iterator_range.hpp>
 
@@ -16,18 +15,8 @@ using Bytes = boost::iterator_range<std::vector<char>::const_iterator>;
 
 std::vector<char> to_bytes(const std::vector<double> &numbers)
 {
-  std::vector<char> bytes(numbers.size() * sizeof(double));
-  if (!numbers.empty())
-    std::memcpy(bytes.data(), numbers.data(), bytes.size());
-  return bytes;
-}
-
-std::vector<double> to_numbers(const Bytes &bytes)
-{
-  std::vector<double> numbers(bytes.size() / sizeof(double));
-  if (!numbers.empty())
-    std::memcpy(numbers.data(), &*bytes.begin(), bytes.size());
-  return numbers;
+  const char *const first = reinterpret_cast<const char *>(numbers.data());
+  return std::vector<char>(first, first + numbers.size() * sizeof(double));
 }
 
 /// A child of a cell that has none.
@@ -43,31 +32,74 @@ CellId child_of(const Cell &cell, const unsigned int child)
 } // namespace
 
 template <int dim>
-CellTransport<dim>::CellTransport(ParallelTriangulation<dim> &triangulation, const Discretization<dim> &discretization,
-                                  std::function<Numbers(const Cell &, bool)>           pack_,
-                                  std::function<Numbers(const std::vector<Numbers> &)> join_, const bool equal_sizes)
+CellTransport<dim>::CellTransport(ParallelTriangulation<dim> &triangulation, const Discretization<dim> &discretization)
   : triangulation(triangulation)
   , discretization(discretization)
-  , pack(std::move(pack_))
-  , join(std::move(join_))
+{}
+
+template <int dim>
+unsigned int CellTransport<dim>::add(Pack pack, Join join)
 {
-  (void)equal_sizes;
+  cargoes.push_back({std::move(pack), std::move(join)});
+  return static_cast<unsigned int>(cargoes.size() - 1);
+}
+
+template <int dim>
+void CellTransport<dim>::pack(const Cell &cell, const bool halved, Numbers &parcel) const
+{
+  parcel.assign(cargoes.size(), 0.);
+  for (std::size_t i = 0; i < cargoes.size(); ++i)
+    {
+      const std::size_t before = parcel.size();
+      cargoes[i].pack(cell, halved, parcel);
+      parcel[i] = double(parcel.size() - before);
+    }
+}
+
+template <int dim>
+void CellTransport<dim>::join(const std::vector<Numbers> &children, Numbers &parcel) const
+{
+  parcel.assign(cargoes.size(), 0.);
+  std::vector<std::size_t> first(children.size(), cargoes.size());
+  std::vector<Numbers>     of_cargo(children.size());
+  for (std::size_t i = 0; i < cargoes.size(); ++i)
+    {
+      for (std::size_t child = 0; child < children.size(); ++child)
+        {
+          const auto from = children[child].begin() + first[child];
+          of_cargo[child].assign(from, from + static_cast<std::size_t>(children[child][i]));
+          first[child] += of_cargo[child].size();
+        }
+      const Numbers joined = cargoes[i].join(of_cargo);
+      parcel.insert(parcel.end(), joined.begin(), joined.end());
+      parcel[i] = double(joined.size());
+    }
+}
+
+template <int dim>
+void CellTransport<dim>::send()
+{
   if constexpr (dim == 1)
     gather();
   else
     handle = triangulation.register_data_attach(
       [this](const Cell &cell, const typename ParallelTriangulation<dim>::CellStatus status) {
+        Numbers parcel;
         if (status != ParallelTriangulation<dim>::CELL_COARSEN)
-          return to_bytes(pack(cell, status == ParallelTriangulation<dim>::CELL_REFINE));
-        std::vector<Numbers> children;
-        for (unsigned int child = 0; child < cell->n_children(); ++child)
-          children.push_back(pack(cell->child(child), false));
-        return to_bytes(join(children));
+          pack(cell, status == ParallelTriangulation<dim>::CELL_REFINE, parcel);
+        else
+          {
+            std::vector<Numbers> children(cell->n_children());
+            for (unsigned int child = 0; child < cell->n_children(); ++child)
+              pack(cell->child(child), false, children[child]);
+            join(children, parcel);
+          }
+        return to_bytes(parcel);
       },
-      !equal_sizes);
+      true);
 }
 
-/// Numbers of all cells on all processes, which know the cells alike.
+/// Parcels of all cells on all processes, which know the cells alike.
 template <int dim>
 void CellTransport<dim>::gather()
 {
@@ -77,40 +109,57 @@ void CellTransport<dim>::gather()
   for (const auto &cell : discretization.cells())
     {
       const unsigned int index = cell->active_cell_index();
-      own[index]               = pack(cell, true);
-      first[index + 1]         = static_cast<unsigned int>(own[index].size());
+      pack(cell, true, own[index]);
+      first[index + 1] = static_cast<unsigned int>(own[index].size());
     }
   Utilities::MPI::sum(first, communicator, first);
   std::partial_sum(first.begin(), first.end(), first.begin());
-  Vector<double> all(first.back());
+  Numbers all(first.back(), 0.);
   for (std::size_t i = 0; i < own.size(); ++i)
     std::copy(own[i].begin(), own[i].end(), all.begin() + first[i]);
-  sum_over_processes(all, communicator);
+  Utilities::MPI::sum(all, communicator, all);
   for (const auto &cell : triangulation.active_cell_iterators())
     by_id[cell->id()].assign(all.begin() + first[cell->active_cell_index()],
                              all.begin() + first[cell->active_cell_index() + 1]);
 }
 
 template <int dim>
-void CellTransport<dim>::unpack(const std::function<void(const Cell &, const Numbers &, Change)> &take)
+void CellTransport<dim>::receive()
 {
   if constexpr (dim == 1)
-    unpack_by_id(take);
+    receive_by_id();
   else
-    triangulation.notify_ready_to_unpack(handle, [&](const Cell                                           &cell,
-                                                     const typename ParallelTriangulation<dim>::CellStatus status,
-                                                     const Bytes                                          &bytes) {
-      take(cell, to_numbers(bytes),
-           status == ParallelTriangulation<dim>::CELL_REFINE    ? Change::halved
-           : status == ParallelTriangulation<dim>::CELL_COARSEN ? Change::joined
-                                                                : Change::none);
-    });
+    {
+      using Status = typename ParallelTriangulation<dim>::CellStatus;
+      Numbers parcel;
+      triangulation.notify_ready_to_unpack(handle, [&](const Cell &cell, const Status status, const Bytes &bytes) {
+        parcel.resize(bytes.size() / sizeof(double));
+        std::memcpy(parcel.data(), &*bytes.begin(), bytes.size());
+        arrive(cell,
+               status == ParallelTriangulation<dim>::CELL_REFINE    ? Change::halved
+               : status == ParallelTriangulation<dim>::CELL_COARSEN ? Change::joined
+                                                                    : Change::none,
+               parcel.data(), parcel.size());
+      });
+    }
 }
 
-/// Each owned cell looks for its own numbers, its parent's or its children's.
 template <int dim>
-void CellTransport<dim>::unpack_by_id(const std::function<void(const Cell &, const Numbers &, Change)> &take) const
+void CellTransport<dim>::arrive(const Cell &cell, const Change change, const double *parcel, const std::size_t size)
 {
+  if (arrivals.empty())
+    numbers.reserve(size * discretization.cells().size()); // or more where cells were halved
+  arrivals.push_back({cell, change, numbers.size()});
+  numbers.insert(numbers.end(), parcel, parcel + size);
+}
+
+/// Each owned cell looks for its own parcel, its parent's or its children's.
+template <int dim>
+void CellTransport<dim>::receive_by_id()
+{
+  const auto take = [this](const Cell &cell, const Numbers &parcel, const Change change) {
+    arrive(cell, change, parcel.data(), parcel.size());
+  };
   for (const auto &cell : discretization.cells())
     if (const auto own = by_id.find(cell->id()); own != by_id.end())
       take(cell, own->second, Change::none);
@@ -129,8 +178,24 @@ void CellTransport<dim>::unpack_by_id(const std::function<void(const Cell &, con
         std::vector<Numbers> children;
         for (unsigned int child = 0; child < GeometryInfo<dim>::max_children_per_cell; ++child)
           children.push_back(by_id.at(child_of(cell, child)));
-        take(cell, join(children), Change::joined);
+        Numbers parcel;
+        join(children, parcel);
+        take(cell, parcel, Change::joined);
       }
+  by_id.clear();
+}
+
+template <int dim>
+void CellTransport<dim>::unpack(const unsigned int cargo, const Take &take) const
+{
+  Numbers of_cargo;
+  for (const Arrival &arrival : arrivals)
+    {
+      const auto sizes = numbers.begin() + arrival.first;
+      const auto first = sizes + cargoes.size() + static_cast<std::size_t>(std::accumulate(sizes, sizes + cargo, 0.));
+      of_cargo.assign(first, first + static_cast<std::size_t>(sizes[cargo]));
+      take(arrival.cell, of_cargo, arrival.change);
+    }
 }
 
 template class CellTransport<1>;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <list>
 
 namespace Arenite
 {
@@ -47,11 +48,17 @@ void MeshAdaptor<dim>::declare_parameters(Parameters &parameters)
     "Buffer layers", layers, 1, 100,
     "Layers of fine cells around the front, and width of the belts of each coarser level. More layers cost cells "
     "and save adaptations, each of which costs as much as some hundred steps.");
+  parameters.add_integer("Layers behind", layers_behind, 1, 100,
+                         "As 'Buffer layers', for what the front has left: cells that were nearer to it when the mesh "
+                         "changed last. Fewer save cells; a wave that "
+                         "starts there, at a layer or where two waves meet, is refined at the next look only.");
   parameters.add_points(
     "Refined boxes", fine_boxes, "m",
     "Boxes of the undeformed body whose cells stay at the finest level, two opposite corners each.");
   parameters.add_points("Coarse boxes", coarse_boxes, "m",
-                        "Boxes that stay as the initial mesh is, whatever happens in them, two opposite corners each.");
+                        "Boxes whose cells are not refined to the finest level, two opposite corners each.");
+  parameters.add_integer("Levels in coarse boxes", levels_in_boxes, 0, 8,
+                         "That may be refined there; 0: they stay as the initial mesh is, whatever happens in them.");
   parameters.add_list(
     "Initially refined boundaries", boundary_names,
     "Boundaries with fine cells at the start; 'auto': those under pressure or with a prescribed velocity.");
@@ -67,6 +74,7 @@ void MeshAdaptor<dim>::finalize(const Parameters &parameters, const MeshChoice<d
        {std::make_pair("Refined boxes", &fine_boxes), std::make_pair("Coarse boxes", &coarse_boxes)})
     if (boxes->size() % 2 != 0)
       parameters.refuse(std::string("Adaptivity/") + entry, "needs two corners for each box");
+  layers_behind        = std::min(layers_behind, layers);
   room                 = layers / 2 + 1; // something may start away from the refined boundaries
   base_level           = mesh.refinement;
   refine_geometry      = mesh.refine_geometry;
@@ -97,13 +105,15 @@ bool in_some_box(const std::vector<Point<dim>> &corners, const Point<dim> &low, 
 }
 } // namespace
 
-/// Cells that boxes of the scene keep fine, those that a box meets, or coarse, those that have their centre in it.
+/// The finest level that each cell may have: coarse boxes have those cells whose centre is in them. Cells that a box keeps fine, those that it
+/// meets, join the @p front; those that must stay as they are at the start leave it.
 template <int dim>
-void MeshAdaptor<dim>::obey_boxes(const Discretization<dim> &discretization, std::vector<bool> &front,
-                                  std::vector<bool> &coarse) const
+std::vector<unsigned int> MeshAdaptor<dim>::obey_boxes(const Discretization<dim> &discretization,
+                                                       std::vector<bool>         &front) const
 {
+  std::vector<unsigned int> finest(front.size(), base_level + levels);
   if (fine_boxes.empty() && coarse_boxes.empty())
-    return;
+    return finest;
   std::vector<Point<dim>> x;
   for (unsigned int cell = 0; cell < discretization.cells().size(); ++cell)
     {
@@ -111,13 +121,15 @@ void MeshAdaptor<dim>::obey_boxes(const Discretization<dim> &discretization, std
       const BoundingBox<dim> extent(x);
       const Point<dim>       centre = extent.center();
       const unsigned int     index  = discretization.cells()[cell]->active_cell_index();
-      coarse[index]                 = in_some_box(coarse_boxes, centre, centre);
+      if (in_some_box(coarse_boxes, centre, centre))
+        finest[index] = base_level + std::min(levels_in_boxes, levels);
       // a common face is no meeting
       const Tensor<1, dim> inwards = 1e-6 * (extent.get_boundary_points().second - extent.get_boundary_points().first);
-      front[index] =
-        !coarse[index] && (front[index] || in_some_box(fine_boxes, extent.get_boundary_points().first + inwards,
-                                                       extent.get_boundary_points().second - inwards));
+      front[index]                 = finest[index] > base_level &&
+                     (front[index] || in_some_box(fine_boxes, extent.get_boundary_points().first + inwards,
+                                                  extent.get_boundary_points().second - inwards));
     }
+  return finest;
 }
 
 template <int dim>
@@ -139,18 +151,19 @@ void MeshAdaptor<dim>::initial_refinement(Triangulation &triangulation, Discreti
             if (face->at_boundary() && std::find(initial_boundaries.begin(), initial_boundaries.end(),
                                                  face->boundary_id()) != initial_boundaries.end())
               front[cell->active_cell_index()] = true;
-      std::vector<bool> coarse(front.size(), false);
-      obey_boxes(discretization, front, coarse);
-      const auto layers_of = layers_from(triangulation, front, base_level + levels, levels * layers);
-      set_flags(triangulation, wanted_levels(layers_of, coarse), quiet);
+      const std::vector<unsigned int> finest = obey_boxes(discretization, front);
+      const auto layers_of                   = layers_from(triangulation, front, base_level + levels, levels * layers);
+      set_flags(triangulation, wanted_levels(layers_of, finest, Vector<double>(triangulation.n_active_cells())), quiet);
       check_size(triangulation, 0.);
-      FieldTransfer<dim> transfer(discretization);
-      transfer.add(discretization.positions);
-      transfer.prepare();
+      CellTransport<dim> transport(triangulation, discretization);
+      FieldTransfer<dim> fields(transport, discretization);
+      fields.add(discretization.positions);
+      transport.send();
       triangulation.execute_coarsening_and_refinement();
       discretization.distribute_nodes();
-      transfer.interpolate();
-      transfer.next(discretization.positions);
+      transport.receive();
+      fields.interpolate();
+      fields.next(discretization.positions);
       discretization.complete_positions();
       if (refine_geometry)
         discretization.positions_from_manifolds();
@@ -185,16 +198,44 @@ void MeshAdaptor<dim>::find_front(const Dynamics<dim> &dynamics, const State<dim
   marked_at = state.time;
 }
 
+/// The trail as it would be if the mesh changed now. Where the distance from the front has grown since the last change, a cell is behind it, where
+/// it has shrunk it is not; smaller differences than the layers behind may come from coarse cells in the front and change nothing. @p layers_of:
+/// layers_from() the front.
+template <int dim>
+Vector<double> MeshAdaptor<dim>::marks_of(Triangulation &triangulation, const std::vector<bool> &front,
+                                          const std::vector<unsigned int> &layers_of) const
+{
+  const unsigned int n = triangulation.n_active_cells();
+  Vector<double>     marks(n);
+  std::copy(front.begin(), front.end(), marks.begin());
+  if (layers_behind == layers || trail.size() != n)
+    return marks;
+  std::vector<bool> before(n);
+  for (unsigned int i = 0; i < n; ++i)
+    before[i] = trail[i] > 0.;
+  const auto layers_then = layers_from(triangulation, before, base_level + levels, levels * layers);
+  for (unsigned int i = 0; i < n; ++i)
+    if (!front[i])
+      {
+        const bool has_grown  = layers_of[i] > layers_then[i] + layers_behind,
+                   has_shrunk = layers_then[i] > layers_of[i] + layers_behind;
+        if (has_grown || (trail[i] < 0. && !has_shrunk))
+          marks[i] = -1.;
+      }
+  return marks;
+}
+
 /// The finest level around the front, and belts as wide as this buffer of each coarser one around it: a front that moves by its buffer then finds
-/// cells that lack no more than one level. @p layers_of: layers_from() the front.
+/// cells that lack no more than one level. @p layers_of: layers_from() the front; @p finest: that boxes allow; @p
+/// marks: as in the trail.
 template <int dim>
 std::vector<unsigned int> MeshAdaptor<dim>::wanted_levels(const std::vector<unsigned int> &layers_of,
-                                                          const std::vector<bool>         &coarse) const
+                                                          const std::vector<unsigned int> &finest,
+                                                          const Vector<double>            &marks) const
 {
-  std::vector<unsigned int> wanted(layers_of.size(), base_level);
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    if (!coarse[i])
-      wanted[i] = base_level + levels - std::min(levels, layers_of[i] / layers);
+  std::vector<unsigned int> wanted(layers_of.size());
+  for (unsigned int i = 0; i < wanted.size(); ++i)
+    wanted[i] = std::min(finest[i], base_level + levels - std::min(levels, layers_of[i] / layers_around(marks[i])));
   return wanted;
 }
 
@@ -204,29 +245,27 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
 {
   const Discretization<dim> &discretization = dynamics.discretization;
   const auto                &cells          = discretization.cells();
-  const unsigned int         finest         = base_level + levels;
-  std::vector<bool> front(triangulation.n_active_cells(), false), quiet(front.size(), pass == 0), coarse(front);
+  std::vector<bool>          front(triangulation.n_active_cells(), false), quiet(front.size(), pass == 0);
   if (pass == 0)
     find_front(dynamics, state, front, quiet);
   else
     for (const auto &cell : cells)
-      front[cell->active_cell_index()] = in_front[cell->active_cell_index()] > 0.;
-  obey_boxes(discretization, front, coarse);
-  in_front.reinit(static_cast<unsigned int>(front.size()));
-  std::copy(front.begin(), front.end(), in_front.begin());
-  const std::vector<unsigned int> layers_of = layers_from(triangulation, front, finest, levels * layers);
-  const std::vector<unsigned int> wanted    = wanted_levels(layers_of, coarse);
+      front[cell->active_cell_index()] = trail[cell->active_cell_index()] > 0.;
+  const std::vector<unsigned int> finest    = obey_boxes(discretization, front);
+  const std::vector<unsigned int> layers_of = layers_from(triangulation, front, base_level + levels, levels * layers);
+  const Vector<double>            marks     = pass == 0 ? marks_of(triangulation, front, layers_of) : trail;
+  const std::vector<unsigned int> wanted    = wanted_levels(layers_of, finest, marks);
 
   std::vector<unsigned long> count(3, 0); // in the front and too coarse; below the wanted level; above
   room = layers;
   for (const auto &cell : cells)
     {
       const unsigned int index = cell->active_cell_index(), level = cell->level();
-      quiet[index] = quiet[index] || coarse[index];
-      count[0] += front[index] && level < finest;
+      quiet[index] = quiet[index] || level > finest[index];
+      count[0] += front[index] && level < finest[index];
       count[1] += level < wanted[index];
       count[2] += quiet[index] && level > wanted[index];
-      if (level < finest && !coarse[index])
+      if (level < finest[index] && (marks[index] >= 0. || layers_behind == layers))
         room = std::min(room, layers_of[index]);
     }
   room = Utilities::MPI::min(room, discretization.communicator);
@@ -251,7 +290,10 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
   refined = Utilities::MPI::sum(refined, discretization.communicator);
   joined  = Utilities::MPI::sum(joined, discretization.communicator);
   if (pass > 0 ? refined > 0 : (is_near ? refined + joined > 0 : is_many(joined)))
-    return true;
+    {
+      trail = marks;
+      return true;
+    }
   for (const auto &cell : triangulation.active_cell_iterators())
     {
       cell->clear_refine_flag();
@@ -281,28 +323,28 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
 {
   Discretization<dim> &discretization = dynamics.discretization;
 
-  FieldTransfer<dim> transfer(discretization);
-  VectorType         velocity = state.half_velocity;
+  VectorType velocity = state.half_velocity;
   make_consistent(discretization, velocity);
-  transfer.add(discretization.positions);
-  transfer.add(state.displacement);
-  transfer.add(velocity);
+  std::list<VectorType> states_of_loads;
   for (const auto &load : dynamics.loads)
     for (const VectorType *scalar : load->nodal_states())
       {
-        VectorType consistent = *scalar;
-        make_consistent(discretization, consistent);
-        transfer.add(consistent);
+        states_of_loads.push_back(*scalar);
+        make_consistent(discretization, states_of_loads.back());
       }
-  transfer.prepare();
+  CellTransport<dim> transport(triangulation, discretization);
+  FieldTransfer<dim> fields(transport, discretization);
+  for (const VectorType *field : {&discretization.positions, &state.displacement, &velocity})
+    fields.add(*field);
+  for (const VectorType &scalar : states_of_loads)
+    fields.add(scalar);
   using Cell    = typename CellTransport<dim>::Cell;
   using Numbers = typename CellTransport<dim>::Numbers;
   // children take the numbers of their parent, a parent the largest of its children
-  CellTransport<dim> ratios_and_marks(
-    triangulation, discretization,
-    [&](const Cell &cell, bool) {
+  const unsigned int ratios_and_marks = transport.add(
+    [&](const Cell &cell, bool, Numbers &numbers) {
       const unsigned int index = cell->active_cell_index();
-      return Numbers{time_step.ratio[index], in_front[index]};
+      numbers.insert(numbers.end(), {time_step.ratio[index], trail[index]});
     },
     [](const std::vector<Numbers> &children) {
       Numbers largest = children[0];
@@ -310,22 +352,23 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
         for (std::size_t k = 0; k < largest.size(); ++k)
           largest[k] = std::max(largest[k], child[k]);
       return largest;
-    },
-    true);
-  PointTransfer<dim>    points(triangulation, dynamics, state);
-  MomentumTransfer<dim> momentum(triangulation, dynamics, velocity);
+    });
+  PointTransfer<dim>    points(transport, triangulation, dynamics, state);
+  MomentumTransfer<dim> momentum(transport, dynamics, velocity);
+  transport.send();
   triangulation.execute_coarsening_and_refinement();
 
   discretization.distribute_nodes();
-  transfer.interpolate();
-  transfer.next(discretization.positions);
+  transport.receive();
+  fields.interpolate();
+  fields.next(discretization.positions);
   discretization.complete_positions();
   if (refine_geometry)
     discretization.positions_from_manifolds();
 
   dynamics.reinit(state, false);
-  transfer.next(state.displacement);
-  transfer.next(state.half_velocity);
+  fields.next(state.displacement);
+  fields.next(state.half_velocity);
   dynamics.constraints.project(state.displacement);
   dynamics.constraints.project(state.half_velocity);
   for (const auto &load : dynamics.loads)
@@ -333,7 +376,7 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
       {
         std::vector<VectorType> states(n_states, discretization.new_scalar());
         for (VectorType &scalar : states)
-          transfer.next(scalar);
+          fields.next(scalar);
         load->set_nodal_states(states);
       }
   make_consistent(discretization, state.displacement);
@@ -343,20 +386,20 @@ void MeshAdaptor<dim>::execute(Triangulation &triangulation, Dynamics<dim> &dyna
   zero_at_hanging_nodes(discretization, state.half_velocity);
 
   room = layers;
-  for (Vector<double> *numbers : {&time_step.ratio, &in_front})
+  for (Vector<double> *numbers : {&time_step.ratio, &trail})
     numbers->reinit(triangulation.n_active_cells());
-  ratios_and_marks.unpack(
-    [&](const Cell &cell, const Numbers &numbers, const typename CellTransport<dim>::Change change) {
-      const auto put = [&](const Cell &active) {
-        time_step.ratio[active->active_cell_index()] = numbers[0];
-        in_front[active->active_cell_index()]        = numbers[1];
-      };
-      if (change != CellTransport<dim>::Change::halved)
-        return put(cell);
-      for (unsigned int child = 0; child < cell->n_children(); ++child)
-        if (cell->child(child)->is_locally_owned())
-          put(cell->child(child));
-    });
+  transport.unpack(ratios_and_marks,
+                   [&](const Cell &cell, const Numbers &numbers, const typename CellTransport<dim>::Change change) {
+                     const auto put = [&](const Cell &active) {
+                       time_step.ratio[active->active_cell_index()] = numbers[0];
+                       trail[active->active_cell_index()]           = numbers[1];
+                     };
+                     if (change != CellTransport<dim>::Change::halved)
+                       return put(cell);
+                     for (unsigned int child = 0; child < cell->n_children(); ++child)
+                       if (cell->child(child)->is_locally_owned())
+                         put(cell->child(child));
+                   });
 }
 
 template <int dim>

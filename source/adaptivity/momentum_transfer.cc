@@ -5,30 +5,28 @@ namespace Arenite
 using namespace dealii;
 
 template <int dim>
-MomentumTransfer<dim>::MomentumTransfer(ParallelTriangulation<dim> &triangulation, const Dynamics<dim> &dynamics,
+MomentumTransfer<dim>::MomentumTransfer(CellTransport<dim> &transport, const Dynamics<dim> &dynamics,
                                         const VectorType &velocity)
-  : dynamics(dynamics)
-  , old([&] {
-    std::vector<Numbers> result(triangulation.n_active_cells());
-    const auto          &cells = dynamics.discretization.cells();
-    for (unsigned int cell = 0; cell < cells.size(); ++cell)
-      {
-        const Tensor<1, dim> p = momentum(cell, velocity);
-        result[cells[cell]->active_cell_index()].assign(p.begin_raw(), p.end_raw());
-      }
-    return result;
-  }())
-  , transport(
-      triangulation, dynamics.discretization, [this](const Cell &cell, bool) { return old[cell->active_cell_index()]; },
-      [](const std::vector<Numbers> &children) {
-        Numbers sum = children[0];
-        for (std::size_t child = 1; child < children.size(); ++child)
-          for (unsigned int c = 0; c < dim; ++c)
-            sum[c] += children[child][c];
-        return sum;
-      },
-      true)
-{}
+  : transport(transport)
+  , dynamics(dynamics)
+  , old(dynamics.discretization.triangulation.n_active_cells())
+{
+  const auto &cells = dynamics.discretization.cells();
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    old[cells[cell]->active_cell_index()] = momentum(cell, velocity);
+  cargo = transport.add(
+    [this](const Cell &cell, bool, Numbers &numbers) {
+      const Tensor &p = old[cell->active_cell_index()];
+      numbers.insert(numbers.end(), p.begin_raw(), p.end_raw());
+    },
+    [](const std::vector<Numbers> &children) {
+      Numbers sum = children[0];
+      for (std::size_t child = 1; child < children.size(); ++child)
+        for (unsigned int c = 0; c < dim; ++c)
+          sum[c] += children[child][c];
+      return sum;
+    });
+}
 
 template <int dim>
 const std::vector<double> &MomentumTransfer<dim>::mass_of(const unsigned int cell)
@@ -38,10 +36,10 @@ const std::vector<double> &MomentumTransfer<dim>::mass_of(const unsigned int cel
 }
 
 template <int dim>
-Tensor<1, dim> MomentumTransfer<dim>::momentum(const unsigned int cell, const VectorType &velocity)
+dealii::Tensor<1, dim> MomentumTransfer<dim>::momentum(const unsigned int cell, const VectorType &velocity)
 {
   const unsigned int *nodes = dynamics.discretization.cell_nodes(cell);
-  Tensor<1, dim>      sum;
+  Tensor              sum;
   const auto         &m = mass_of(cell);
   for (unsigned int i = 0; i < m.size(); ++i)
     for (unsigned int c = 0; c < dim; ++c)
@@ -68,7 +66,7 @@ void MomentumTransfer<dim>::restore(const State<dim> &state, VectorType &velocit
 
   VectorType impulse = discretization.new_vector();
   const auto spread  = [&](const std::vector<unsigned int> &cells, const Numbers &before) {
-    Tensor<1, dim> missing, total;
+    Tensor missing, total;
     for (unsigned int c = 0; c < dim; ++c)
       missing[c] = before[c];
     for (const unsigned int cell : cells)
@@ -88,7 +86,8 @@ void MomentumTransfer<dim>::restore(const State<dim> &state, VectorType &velocit
       }
   };
   const std::vector<unsigned int> index = index_of_active_cells(discretization);
-  transport.unpack([&](const Cell &cell, const Numbers &before, const typename CellTransport<dim>::Change change) {
+  transport.unpack(cargo, [&](const Cell &cell, const Numbers &before,
+                              const typename CellTransport<dim>::Change change) {
     std::vector<unsigned int> cells;
     if (change != CellTransport<dim>::Change::halved)
       cells = {index[cell->active_cell_index()]};

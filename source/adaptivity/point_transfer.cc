@@ -1,4 +1,3 @@
-#include <arenite/adaptivity/field_transfer.h>
 #include <arenite/adaptivity/point_transfer.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -30,8 +29,10 @@ std::pair<double, double> fingerprint(const Discretization<dim> &discretization,
 } // namespace
 
 template <int dim>
-PointTransfer<dim>::PointTransfer(ParallelTriangulation<dim> &triangulation, Dynamics<dim> &dynamics, State<dim> &state)
-  : dynamics(dynamics)
+PointTransfer<dim>::PointTransfer(CellTransport<dim> &transport, ParallelTriangulation<dim> &triangulation,
+                                  Dynamics<dim> &dynamics, State<dim> &state)
+  : transport(transport)
+  , dynamics(dynamics)
 {
   if (!dynamics.stores_points())
     return;
@@ -61,9 +62,8 @@ PointTransfer<dim>::PointTransfer(ParallelTriangulation<dim> &triangulation, Dyn
         *array = AlignedVector<double>();
     }
   share_means(triangulation);
-  transport.emplace(
-    triangulation, dynamics.discretization, [this](const Cell &cell, const bool halved) { return pack(cell, halved); },
-    [this](const std::vector<Numbers> &children) { return join(children); }, false);
+  cargo = transport.add([this](const Cell &cell, const bool halved, Numbers &numbers) { pack(cell, halved, numbers); },
+                        [this](const std::vector<Numbers> &children) { return join(children); });
 }
 
 /// Block and means of cells that other processes own: of those next to own ones, in one dimension of all.
@@ -75,17 +75,17 @@ void PointTransfer<dim>::share_means(const ParallelTriangulation<dim> &triangula
       std::size_t longest = 0;
       for (const auto &rule : rules)
         longest = std::max<std::size_t>(longest, rule.layout.n_values);
-      Vector<double> all(old.size() * (longest + 1));
+      Numbers all(old.size() * (longest + 1), 0.);
       for (std::size_t cell = 0; cell < old.size(); ++cell)
         if (old[cell].block != numbers::invalid_unsigned_int)
           {
             all[cell * (longest + 1)] = old[cell].block;
             std::copy(old[cell].mean.begin(), old[cell].mean.end(), all.begin() + cell * (longest + 1) + 1);
           }
-      sum_over_processes(all, dynamics.discretization.communicator);
+      Utilities::MPI::sum(all, dynamics.discretization.communicator, all);
       for (std::size_t cell = 0; cell < old.size(); ++cell)
         {
-          const double *const from = all.begin() + cell * (longest + 1);
+          const auto from          = all.begin() + static_cast<std::ptrdiff_t>(cell * (longest + 1));
           old[cell].block          = static_cast<unsigned int>(*from);
           const CellRecord &layout = rules[old[cell].block].layout;
           old[cell].mean.assign(from + 1, from + 1 + (layout.points.empty() ? 0 : layout.n_values - 1));
@@ -148,12 +148,12 @@ typename CellRecords<dim>::Surroundings PointTransfer<dim>::surroundings(const C
 
 /// Block and record of a cell; for its children with what they need to know about its surroundings.
 template <int dim>
-std::vector<double> PointTransfer<dim>::pack(const Cell &cell, const bool halved) const
+void PointTransfer<dim>::pack(const Cell &cell, const bool halved, Numbers &result) const
 {
   const OldCell &here = old[cell->active_cell_index()];
   if (here.record.empty())
-    return {};
-  Numbers result{double(here.block), here.moved};
+    return;
+  result.insert(result.end(), {double(here.block), here.moved});
   result.insert(result.end(), here.record.begin(), here.record.end());
   if (halved)
     {
@@ -161,7 +161,6 @@ std::vector<double> PointTransfer<dim>::pack(const Cell &cell, const bool halved
       for (const Numbers *numbers : {&around.slope, &around.lower, &around.upper})
         result.insert(result.end(), numbers->begin(), numbers->end());
     }
-  return result;
 }
 
 template <int dim>
@@ -204,11 +203,12 @@ void PointTransfer<dim>::put_children(const Cell &parent, const Numbers &packed,
 template <int dim>
 void PointTransfer<dim>::unpack(State<dim> &state)
 {
-  if (!transport)
+  if (!cargo)
     return;
   const std::vector<unsigned int> index = index_of_active_cells(dynamics.discretization);
   changed.assign(rules.size(), {});
-  transport->unpack([&](const Cell &cell, const Numbers &packed, const typename CellTransport<dim>::Change change) {
+  transport.unpack(*cargo, [&](const Cell &cell, const Numbers &packed,
+                               const typename CellTransport<dim>::Change change) {
     if (packed.empty())
       return;
     if (change == CellTransport<dim>::Change::halved)

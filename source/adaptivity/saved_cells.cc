@@ -67,9 +67,9 @@ private:
 /// Numbers of a cell but for its positions, which are read before there is a Dynamics.
 template <int dim>
 std::size_t n_numbers(const Discretization<dim> &discretization, const std::vector<Field> &fields,
-                      const CellRecord &record)
+                      const std::size_t n_of_cell, const CellRecord &record)
 {
-  std::size_t n = 1 + record.size(dim); // the ratio
+  std::size_t n = n_of_cell + record.size(dim);
   for (const Field &field : fields)
     n += field.n_components * discretization.nodes_per_cell();
   return n;
@@ -78,7 +78,7 @@ std::size_t n_numbers(const Discretization<dim> &discretization, const std::vect
 
 template <int dim>
 std::function<void(std::ostream &)> SavedCells<dim>::writer(const Dynamics<dim> &dynamics, const State<dim> &state,
-                                                            const Vector<double> &ratio)
+                                                            const std::vector<const Vector<double> *> &of_cells)
 {
   const Discretization<dim> &discretization = dynamics.discretization;
   // copies whose ghosts are valid
@@ -103,7 +103,7 @@ std::function<void(std::ostream &)> SavedCells<dim>::writer(const Dynamics<dim> 
     for (const VectorType *scalar : load->nodal_states())
       add(*scalar, 1, false);
 
-  return [copies, fields, &dynamics, &state, &ratio](std::ostream &stream) {
+  return [copies, fields, of_cells, &dynamics, &state](std::ostream &stream) {
     const auto                      &cells = dynamics.discretization.cells();
     std::vector<CellId::binary_type> own_ids;
     for (const auto &cell : cells)
@@ -120,7 +120,8 @@ std::function<void(std::ostream &)> SavedCells<dim>::writer(const Dynamics<dim> 
         const CellNumbers<dim> of_nodes(dynamics.discretization, cell);
         for (const Field &field : fields)
           of_nodes.append(field, numbers);
-        numbers.push_back(ratio[cells[cell]->active_cell_index()]);
+        for (const Vector<double> *of_cell : of_cells)
+          numbers.push_back(of_cell->size() > 0 ? (*of_cell)[cells[cell]->active_cell_index()] : 0.);
         const unsigned int b = block_of(dynamics, cell);
         record.resize(record_size[b]);
         if (!record.empty())
@@ -226,7 +227,8 @@ void SavedCells<dim>::read(Discretization<dim> &discretization)
 }
 
 template <int dim>
-void SavedCells<dim>::set_fields(Dynamics<dim> &dynamics, State<dim> &state, Vector<double> &ratio)
+void SavedCells<dim>::set_fields(Dynamics<dim> &dynamics, State<dim> &state,
+                                 const std::vector<Vector<double> *> &of_cells)
 {
   Discretization<dim> &discretization = dynamics.discretization;
   std::vector<Field>   fields{{&state.displacement, dim}, {&state.half_velocity, dim}};
@@ -238,19 +240,21 @@ void SavedCells<dim>::set_fields(Dynamics<dim> &dynamics, State<dim> &state, Vec
   for (std::vector<VectorType> &of_load : states)
     for (VectorType &scalar : of_load)
       fields.push_back({&scalar, 1});
-  ratio.reinit(discretization.triangulation.n_active_cells());
+  for (Vector<double> *of_cell : of_cells)
+    of_cell->reinit(discretization.triangulation.n_active_cells());
   const std::size_t n_positions = dim * discretization.nodes_per_cell();
   for (unsigned int cell = 0; cell < numbers.size(); ++cell)
     {
       const unsigned int b      = block_of(dynamics, cell);
       const CellRecord   record = dynamics.blocks[b]->cell_record();
-      if (numbers[cell].size() != n_positions + n_numbers(discretization, fields, record))
+      if (numbers[cell].size() != n_positions + n_numbers(discretization, fields, of_cells.size(), record))
         throw unusable(files.front());
       const CellNumbers<dim> of_nodes(discretization, cell);
       const double          *number = numbers[cell].data() + n_positions;
       for (const Field &field : fields)
         number = of_nodes.take(field, number);
-      ratio[discretization.cells()[cell]->active_cell_index()] = *number++;
+      for (Vector<double> *of_cell : of_cells)
+        (*of_cell)[discretization.cells()[cell]->active_cell_index()] = *number++;
       if (record.size(dim) > 0)
         dynamics.blocks[b]->unpack(state.blocks[b], cell, number);
       numbers[cell] = Numbers();

@@ -72,6 +72,13 @@ IndexSet with_components(const IndexSet &nodes, const unsigned int n_components)
   result.compress();
   return result;
 }
+
+/// Whether nodes on the axis of a body of revolution follow their lines, see add_axis_lines().
+template <int dim>
+bool has_axis_lines(const Symmetry symmetry, const unsigned int degree)
+{
+  return dim == 2 && symmetry == Symmetry::axisymmetric && degree > 1;
+}
 } // namespace
 
 /// List the owned cells along the curve through the trees of cells, and number owned nodes as these cells meet them. deal.II's own order
@@ -110,8 +117,9 @@ void Discretization<dim>::distribute_nodes()
   IndexSet relevant;
   DoFTools::extract_locally_relevant_dofs(dofs, relevant);
   AffineConstraints<double> radial(relevant), constraints(relevant);
-  DoFTools::make_hanging_node_constraints(dofs, radial);
   DoFTools::make_hanging_node_constraints(dofs, constraints);
+  if (has_axis_lines<dim>(symmetry, degree()))
+    DoFTools::make_hanging_node_constraints(dofs, radial);
   add_axis_lines(constraints);
   radial.close();
   constraints.close();
@@ -166,7 +174,7 @@ void Discretization<dim>::make_hanging_nodes(const std::vector<types::global_dof
   const auto local = [&](const types::global_dof_index i) { return node_partitioner->global_to_local(i); };
   auto       lines = unsorted_lines;
   std::sort(lines.begin(), lines.end(), [&](const auto a, const auto b) { return local(a) < local(b); });
-  const bool has_axis = n_hoop_directions(symmetry) > 0 && dim == 2 && degree() > 1;
+  const bool has_axis = has_axis_lines<dim>(symmetry, degree());
   hanging.clear(has_axis);
   std::vector<HangingNodes::Master> masters;
   for (const bool with_ghosts : {false, true})
@@ -204,7 +212,7 @@ template <int dim>
 void Discretization<dim>::add_axis_lines(AffineConstraints<double> &constraints) const
 {
   if constexpr (dim == 2)
-    if (symmetry == Symmetry::axisymmetric && degree() > 1)
+    if (has_axis_lines<dim>(symmetry, degree()))
       {
         const std::vector<double>            weights = even_line_weights(degree());
         const unsigned int                   N       = degree() + 1;

@@ -63,7 +63,7 @@ void Simulation<dim>::write_checkpoint(const OutputDirectory &directory)
   StateArchive       collected(communicator);
   exchange_state(collected);
   exchange_output(collected);
-  const auto write_cells = SavedCells<dim>::writer(*dynamics, state, scene.time_step.ratio);
+  const auto write_cells = SavedCells<dim>::writer(*dynamics, state, {&scene.time_step.ratio, &scene.adaptor.trail});
 
   NewCheckpoint folder(directory);
   folder.add(cells_file(rank), write_cells);
@@ -100,7 +100,7 @@ void Simulation<dim>::load_mesh(const FoundCheckpoint &checkpoint)
 template <int dim>
 void Simulation<dim>::load_state(const FoundCheckpoint &checkpoint)
 {
-  saved->set_fields(*dynamics, state, scene.time_step.ratio);
+  saved->set_fields(*dynamics, state, {&scene.time_step.ratio, &scene.adaptor.trail});
   saved.reset();
   std::ifstream     file(checkpoint.file(run_file), std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

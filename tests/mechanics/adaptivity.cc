@@ -42,17 +42,19 @@ BOOST_AUTO_TEST_CASE(transfer_keeps_polynomials, *label("parallel"))
         for (const auto &cell : body.triangulation.active_cell_iterators())
           if (cell->is_locally_owned())
             flag(cell);
-        FieldTransfer<3> transfer(mesh);
-        transfer.add(mesh.positions);
-        transfer.add(field);
-        transfer.prepare();
+        CellTransport<3> transport(body.triangulation, mesh);
+        FieldTransfer<3> fields(transport, mesh);
+        fields.add(mesh.positions);
+        fields.add(field);
+        transport.send();
         body.triangulation.execute_coarsening_and_refinement();
         mesh.distribute_nodes();
-        transfer.interpolate();
-        transfer.next(mesh.positions);
+        transport.receive();
+        fields.interpolate();
+        fields.next(mesh.positions);
         make_consistent(mesh, mesh.positions);
         field.reinit(mesh.vector_partitioner);
-        transfer.next(field);
+        fields.next(field);
         make_consistent(mesh, field);
         double worst = 0.;
         for (unsigned int node = 0; node < mesh.n_owned_nodes(); ++node)

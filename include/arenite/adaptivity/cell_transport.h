@@ -32,12 +32,16 @@ unsigned int block_of(const Dynamics<dim> &dynamics, const unsigned int cell)
   return b;
 }
 
-/// Numbers of cells on their way to the next mesh, wherever the cells go:
+/// Numbers of cells on their way to the next mesh, wherever the cells go. Several cargoes travel in one parcel per cell, because parcels cost
+/// more than what is in them:
 ///
-///   CellTransport<dim> transport(triangulation, discretization, pack, join);   // before the change; collective
+///   CellTransport<dim> transport(triangulation, discretization);
+///   const auto cargo = transport.add(pack, join);                // any number of them
+///   transport.send();                                            // collective
 ///   triangulation.execute_coarsening_and_refinement();
 ///   discretization.distribute_nodes();
-///   transport.unpack(take);
+///   transport.receive();                                         // collective
+///   transport.unpack(cargo, take);
 ///
 /// In one dimension, where all processes hold the whole mesh, they hold all numbers while it changes.
 template <int dim>
@@ -54,27 +58,49 @@ public:
     joined
   };
 
-  /// @p pack: of an owned active cell, with @p halved if its children will read them. @p join: of the cell that takes the place of children,
-  /// from what they packed, perhaps as if they were halved. Both are called until unpack() is done.
-  /// @p equal_sizes: every cell packs as many numbers.
-  CellTransport(ParallelTriangulation<dim> &, const Discretization<dim> &,
-                std::function<Numbers(const Cell &, bool halved)>    pack,
-                std::function<Numbers(const std::vector<Numbers> &)> join, bool equal_sizes);
+  /// Appends the numbers of an owned active cell of the old mesh, with @p halved if its children will read them.
+  using Pack = std::function<void(const Cell &, bool halved, Numbers &)>;
+  /// Numbers of the cell that takes the place of children, from what these packed, perhaps as if they were halved.
+  using Join = std::function<Numbers(const std::vector<Numbers> &children)>;
+  using Take = std::function<void(const Cell &, const Numbers &, Change)>;
+
+  CellTransport(ParallelTriangulation<dim> &, const Discretization<dim> &);
   CellTransport(const CellTransport &) = delete;
 
-  /// For all owned cells of the new mesh, or their parents.
-  void unpack(const std::function<void(const Cell &, const Numbers &, Change)> &take);
+  /// @p pack and @p join are called until receive() is done.
+  unsigned int add(Pack pack, Join join);
+  void         send();
+  void         receive();
+
+  /// For all owned cells of the new mesh, or their parents; as often as wanted.
+  void unpack(unsigned int cargo, const Take &take) const;
 
 private:
-  void gather();
-  void unpack_by_id(const std::function<void(const Cell &, const Numbers &, Change)> &take) const;
+  struct Cargo
+  {
+    Pack pack;
+    Join join;
+  };
+  struct Arrival
+  {
+    Cell        cell;
+    Change      change;
+    std::size_t first; ///< of its numbers: how many each cargo has, then these
+  };
 
-  ParallelTriangulation<dim>                                &triangulation;
-  const Discretization<dim>                                 &discretization;
-  const std::function<Numbers(const Cell &, bool)>           pack;
-  const std::function<Numbers(const std::vector<Numbers> &)> join;
+  void pack(const Cell &, bool halved, Numbers &parcel) const;
+  void join(const std::vector<Numbers> &children, Numbers &parcel) const;
+  void arrive(const Cell &, Change, const double *parcel, std::size_t size);
+  void gather();
+  void receive_by_id();
+
+  ParallelTriangulation<dim> &triangulation;
+  const Discretization<dim>  &discretization;
+  std::vector<Cargo>          cargoes;
+  std::vector<Arrival>        arrivals;
+  Numbers                     numbers; ///< of all arrivals
 
   unsigned int                      handle = dealii::numbers::invalid_unsigned_int;
-  std::map<dealii::CellId, Numbers> by_id; ///< in one dimension
+  std::map<dealii::CellId, Numbers> by_id; ///< parcels, in one dimension
 };
 } // namespace Arenite

@@ -53,7 +53,7 @@ public:
   /// or something started away from the front. Summed over processes.
   unsigned long coarse_cells_met() const { return n_met; }
 
-  /// Change the mesh as flagged; transfers state, positions, boundary scalars and step ratios; rebuilds
+  /// Change the mesh as flagged; transfers state, positions, boundary scalars, step ratios and the trail; rebuilds
   /// everything. The stable step still has to be updated.
   void execute(Triangulation &, Dynamics<dim> &, State<dim> &, StableTimeStep<dim> &);
 
@@ -62,18 +62,25 @@ public:
 
   unsigned int max_passes() const { return levels; }
 
-  /// What is known of the front.
+  /// What is known of the front, but for the trail.
   void exchange(StateArchive &);
+
+  /// Where the front was when the mesh last changed, per active cell: 1 in it, -1 behind it, 0 elsewhere; empty before.
+  dealii::Vector<double> trail;
 
 private:
   double layers_until_next_look() const { return std::max(room - 1., 0.5); }
 
+  unsigned int              layers_around(double mark) const { return mark < 0. ? layers_behind : layers; }
   std::vector<unsigned int> wanted_levels(const std::vector<unsigned int> &layers_of,
-                                          const std::vector<bool>         &coarse) const;
+                                          const std::vector<unsigned int> &finest,
+                                          const dealii::Vector<double>    &marks) const;
+  dealii::Vector<double>    marks_of(Triangulation &, const std::vector<bool> &front,
+                                     const std::vector<unsigned int> &layers_of) const;
 
   void find_front(const Dynamics<dim> &, const State<dim> &, std::vector<bool> &front, std::vector<bool> &quiet);
-  void obey_boxes(const Discretization<dim> &, std::vector<bool> &front, std::vector<bool> &coarse) const;
-  void check_size(const Triangulation &, double time) const;
+  std::vector<unsigned int> obey_boxes(const Discretization<dim> &, std::vector<bool> &front) const;
+  void                      check_size(const Triangulation &, double time) const;
 
   struct Indicator
   {
@@ -87,13 +94,12 @@ private:
   std::vector<std::string>                boundary_names{"auto"};
   std::vector<dealii::types::boundary_id> initial_boundaries;
   bool                                    automatic_boundaries = true, refine_geometry = false;
-  unsigned int                            levels = 0, base_level = 0, layers = 8, cell_limit = 50000000;
-  double                                  refine_above = 0.2, coarsen_below = 0.05;
-  double                                  marked_at = 0.; ///< time of the last mark() [s]
-  dealii::Vector<double>                  in_front; ///< 1 for cells of the front, per active cell, during an adaptation
+  unsigned int levels = 0, base_level = 0, layers = 8, layers_behind = 8, levels_in_boxes = 0, cell_limit = 50000000;
+  double       refine_above = 0.2, coarsen_below = 0.05;
+  double       marked_at = 0.;                                                     ///< time of the last mark() [s]
   double crossed = 0., crossing_at_rest = std::numeric_limits<double>::infinity(); ///< layers; [s] of the smallest cell
   unsigned int room =
-    0; ///< layers of fine cells between the front and the nearest coarse cell, of a buffer at most, at the last look
+    0; ///< layers of fine cells between the front and the nearest coarse cell not behind it, of a buffer at most, at the last look
   unsigned long n_met = 0;
 };
 } // namespace Arenite

@@ -16,8 +16,9 @@ template <int dim>
 class MomentumTransfer
 {
 public:
-  /// @p velocity with ghosts and hanging nodes, before the change. Collective.
-  MomentumTransfer(ParallelTriangulation<dim> &, const Dynamics<dim> &, const VectorType &velocity);
+  /// @p velocity with ghosts and hanging nodes, before the change.
+  MomentumTransfer(CellTransport<dim> &, const Dynamics<dim> &, const VectorType &velocity);
+  MomentumTransfer(const MomentumTransfer &) = delete;
 
   /// Correct the interpolated @p velocity on the new mesh, with ghosts and hanging nodes before and after. Collective.
   void restore(const State<dim> &, VectorType &velocity);
@@ -25,13 +26,15 @@ public:
 private:
   using Cell    = typename CellTransport<dim>::Cell;
   using Numbers = std::vector<double>;
+  using Tensor  = dealii::Tensor<1, dim>;
 
   const std::vector<double> &mass_of(unsigned int cell);
-  dealii::Tensor<1, dim>     momentum(unsigned int cell, const VectorType &velocity);
+  Tensor                     momentum(unsigned int cell, const VectorType &velocity);
 
+  CellTransport<dim>  &transport;
   const Dynamics<dim> &dynamics;
   std::vector<double>  mass; ///< of the last cell that was asked for
-  std::vector<Numbers> old;  ///< momentum per active cell of the old mesh
-  CellTransport<dim>   transport;
+  std::vector<Tensor>  old;  ///< momentum per active cell of the old mesh
+  unsigned int         cargo;
 };
 } // namespace Arenite

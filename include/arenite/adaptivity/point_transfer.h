@@ -10,9 +10,10 @@ namespace Arenite
 {
 /// Moves what the points of all blocks store from one mesh to the next, on any number of processes:
 ///
-///   PointTransfer<dim> points(triangulation, dynamics, state);   // before the change
+///   PointTransfer<dim> points(transport, triangulation, dynamics, state);   // before the change
+///   transport.send();
 ///   triangulation.execute_coarsening_and_refinement();
-///   ...                                                          // nodes, dynamics.reinit(state, false), fields
+///   ...                                              // nodes, transport.receive(), dynamics.reinit(state, false), fields
 ///   points.unpack(state);                                        // displacement and velocity with ghosts and hanging nodes
 ///
 /// Cells that stay as they are keep their numbers bit by bit; CellRecords has the rules for the others. Where only hanging nodes were moved, density and
@@ -23,7 +24,8 @@ class PointTransfer
 {
 public:
   /// Takes the arrays of the points out of the state. Collective.
-  PointTransfer(ParallelTriangulation<dim> &, Dynamics<dim> &, State<dim> &);
+  PointTransfer(CellTransport<dim> &, ParallelTriangulation<dim> &, Dynamics<dim> &, State<dim> &);
+  PointTransfer(const PointTransfer &) = delete;
 
   /// Into the points of the new mesh; the sums of each block go on. Collective.
   void unpack(State<dim> &);
@@ -42,15 +44,16 @@ private:
 
   void                                    share_means(const ParallelTriangulation<dim> &);
   typename CellRecords<dim>::Surroundings surroundings(const Cell &) const;
-  Numbers                                 pack(const Cell &, bool halved) const;
+  void                                    pack(const Cell &, bool halved, Numbers &) const;
   Numbers                                 join(const std::vector<Numbers> &children) const;
   void put_children(const Cell &parent, const Numbers &packed, const std::vector<unsigned int> &index, State<dim> &);
 
+  CellTransport<dim>                    &transport;
   Dynamics<dim>                         &dynamics;
-  std::vector<CellRecords<dim>>          rules;     ///< per block
-  std::vector<OldCell>                   old;       ///< per active cell of the old mesh
-  std::vector<std::vector<unsigned int>> changed;   ///< cells of the new mesh, per block
-  std::vector<PointData>                 sums;      ///< per block, without arrays
-  std::optional<CellTransport<dim>>      transport; ///< none where nothing is stored
+  std::vector<CellRecords<dim>>          rules;   ///< per block
+  std::vector<OldCell>                   old;     ///< per active cell of the old mesh
+  std::vector<std::vector<unsigned int>> changed; ///< cells of the new mesh, per block
+  std::vector<PointData>                 sums;    ///< per block, without arrays
+  std::optional<unsigned int>            cargo;   ///< none where nothing is stored
 };
 } // namespace Arenite

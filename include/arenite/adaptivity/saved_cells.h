@@ -21,15 +21,15 @@ namespace Arenite
 ///   discretization.distribute_nodes();
 ///   saved.read(discretization);                // own cells; sets the positions
 ///   dynamics.reinit(state, false);
-///   saved.set_fields(dynamics, state, ratio);
+///   saved.set_fields(dynamics, state, {&ratio, &trail});
 template <int dim>
 class SavedCells
 {
 public:
-  /// What writes the file of this process, between two steps, before the forces of t_n. @p ratio: StableTimeStep::ratio. All must live as
-  /// long as the writer, which is not collective; this is.
+  /// What writes the file of this process, between two steps, before the forces of t_n. @p of_cells: one number per active cell each, or none,
+  /// which is read as 0. All must live as long as the writer, which is not collective; this is.
   static std::function<void(std::ostream &)> writer(const Dynamics<dim> &, const State<dim> &,
-                                                    const dealii::Vector<double> &ratio);
+                                                    const std::vector<const dealii::Vector<double> *> &of_cells);
 
   /// Which cells there are. CheckpointError if a file is not what it should be, on this process. Collective.
   SavedCells(const std::vector<std::string> &files, MPI_Comm);
@@ -40,8 +40,8 @@ public:
   /// Collective.
   void read(Discretization<dim> &);
 
-  /// Displacements, velocities, boundary scalars, all that blocks keep, and the ratios. The numbers are given back to the system. Collective.
-  void set_fields(Dynamics<dim> &, State<dim> &, dealii::Vector<double> &ratio);
+  /// Displacements, velocities, boundary scalars, all that blocks keep, and numbers of cells. The memory is given back to the system. Collective.
+  void set_fields(Dynamics<dim> &, State<dim> &, const std::vector<dealii::Vector<double> *> &of_cells);
 
 private:
   using Numbers = std::vector<double>;
