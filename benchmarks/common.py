@@ -196,6 +196,17 @@ def rate(rows, x, y):
     return math.log(b[y] / a[y]) / math.log(b[x] / a[x])
 
 
+def richardson(values):
+    """Order, limit and error bar from the last three of meshes with half the cell size each; doc/theory.md, section 12."""
+    f1, f2, f3 = values[-3:]
+    ratio = (f1 - f2) / (f2 - f3) if f2 != f3 else math.nan
+    order = math.log2(ratio) if ratio > 0 else math.nan
+    if .5 < order < 4:
+        limit = f3 + (f3 - f2) / (2 ** order - 1)
+        return order, limit, 1.25 * abs(limit - f3)
+    return "not asymptotic", f3, 3 * abs(f3 - f2)
+
+
 def figure(path, series, xlabel="core-seconds", ylabel="error", title="", slopes=(), loglog=True, markers=True):
     """One curve per series, {name: [(x, y), ...]}; slopes draws guides of these orders. The suffix of path is the format."""
     drawing, axes = plt.subplots(figsize=(6.4, 4.4))

@@ -169,17 +169,6 @@ def figures(cases):
 
 
 # --- meshes -------------------------------------------------------------------------------------------------------------
-def richardson(values):
-    """Order, limit and error bar from the last three of meshes with half the cell size each; doc/theory.md, section 12."""
-    f1, f2, f3 = values[-3:]
-    ratio = (f1 - f2) / (f2 - f3) if f2 != f3 else math.nan
-    order = math.log2(ratio) if ratio > 0 else math.nan
-    if .5 < order < 4:
-        limit = f3 + (f3 - f2) / (2 ** order - 1)
-        return order, limit, 1.25 * abs(limit - f3)
-    return "not asymptotic", f3, 3 * abs(f3 - f2)
-
-
 def meshes():
     cells = (80, 160, 320, 640, 1280)
     ladders = [(soil, peak, cells[:3] if (soil, peak) == ("dry", 1e10) else cells) for soil in SOILS for peak in (1e8, 1e10)]
@@ -188,7 +177,7 @@ def meshes():
         for name, values in (("u(a)/a", [c.wall for c in runs]), ("S at 2a [MPa]", [c.S[at(.2)] / 1e6 for c in runs]),
                              ("S at 4a [MPa]", [c.S[at(.4)] / 1e6 for c in runs]), ("v at 2a [m/s]", [c.v[at(.2)] for c in runs]),
                              ("v at 5a [m/s]", [c.v[at(.5)] for c in runs]), ("v at 10a [m/s]", [c.v[at(1.)] for c in runs])):
-            order, limit, bar = richardson(values)
+            order, limit, bar = common.richardson(values)
             row = {f"on {n}": f"{value:.4g}" for n, value in zip(ladder, values)}
             add("meshes", soil=soil, **{"peak [MPa]": peak / 1e6}, quantity=name, **row, order=order, limit=f"{limit:.4g}",
                 **{"bar [%]": 100 * bar / abs(limit)})

@@ -155,9 +155,17 @@ def fluidity():
 
 
 # --- the finest mesh ------------------------------------------------------------------------------------------------------------
-def memory_of_the_machine():
+LEFT = 8e9  # for all other programs of this machine while the largest mesh is run [bytes]
+STEPS = 20  # of a large mesh
+
+
+def memory_of_the_machine(kind="MemTotal"):
     """Bytes."""
-    return 1024 * int(re.search(r"MemTotal:\s*(\d+) kB", Path("/proc/meminfo").read_text())[1])
+    return 1024 * int(re.search(kind + r":\s*(\d+) kB", Path("/proc/meminfo").read_text())[1])
+
+
+def bytes_used(run):
+    return 2 ** 20 * run["total_memory_mb"]
 
 
 def finest():
@@ -170,8 +178,8 @@ def finest():
         whole = study.run(case.scene, {**case.settings, "Mesh/Refinement": usual}, repeat=1)
         steps = whole["steps"] / layers(usual)  # of one layer: the step falls with the size of the cells
         time = whole.core_seconds / whole["cells"] / whole["steps"]
-        runs = [study.run(case.scene, {**case.settings, "Mesh/Refinement": r, "End time": 20 * 5e-4 / steps / layers(r)}, repeat=1) for r in large]
-        cells, memory = [run["cells"] for run in runs], [1e6 * run["total_memory_mb"] for run in runs]
+        runs = [study.run(case.scene, {**case.settings, "Mesh/Refinement": r, "End time": STEPS * 5e-4 / steps / layers(r)}, repeat=1) for r in large]
+        cells, memory = [run["cells"] for run in runs], [bytes_used(run) for run in runs]
         bytes_of_a_cell = (memory[-1] - memory[-2]) / (cells[-1] - cells[-2])
         of_a_layer = whole["cells"] / layers(usual) ** power  # cells = this times layers to the power
         fit = (((most - memory[-1]) / bytes_of_a_cell + cells[-1]) / of_a_layer) ** (1 / power)
@@ -181,6 +189,28 @@ def finest():
             "whole run on": whole["cells"], "ns/cell and step": 1e9 * time, "steps/layer": steps, "layers that fit": int(fit),
             "million cells": of_a_layer * fit ** power / 1e6, "days for them": time * of_a_layer * steps * fit ** (power + 1) / day,
             "layers in a day": int(in_a_day), "million cells in a day": of_a_layer * in_a_day ** power / 1e6})
+        if not study.quick and form == "octant" and soil == "dry":
+            largest(case, lambda n: memory[-1] + bytes_of_a_cell * (n - cells[-1]), time, steps)
+
+
+def largest(case, bytes_of, time, steps_of_a_layer):
+    """The largest octant that the free memory takes, for some steps, against what was expected of it."""
+    refinement, across = 6, 64
+    allowed = memory_of_the_machine("MemAvailable") - LEFT
+    cells_of = lambda coarse: coarse * 3 * across ** 2 * 2 ** refinement  # three patches
+    coarse = 1
+    while bytes_of(cells_of(coarse + 1)) < allowed:
+        coarse += 1
+    layers = coarse * 2 ** refinement
+    run = study.run(case.scene, {**case.settings, "Mesh/Radial layers": coarse, "Mesh/Refinement": refinement,
+                                 "End time": STEPS * 5e-4 / steps_of_a_layer / layers}, repeat=1)
+    found = run.core_seconds / run["cells"] / run["steps"]
+    expected = bytes_of(run["cells"])
+    add("largest", **{"memory allowed [GB]": allowed / 1e9, "layers": layers, "cells across": 2 * across, "cells": run["cells"], "steps": run["steps"],
+                      "expected memory [GB]": expected / 1e9, "memory [GB]": bytes_used(run) / 1e9, "off by": profiles.relative(bytes_used(run), expected),
+                      "set-up [core-s]": run["setup_core_seconds"], "time loop [core-s]": run.core_seconds, "ns/cell and step": 1e9 * found,
+                      "expected ns": 1e9 * time, "energy error": run["energy_error"],
+                      "days for the whole run": found * run["cells"] * steps_of_a_layer * layers / 86400})
 
 
 courant()
@@ -197,7 +227,9 @@ WORDS = {
     "fluidity": "Fluidity eta of Perzyna's law, dry sand in the plane, 100 MPa (the scene has eta = 200 1/s); dt: mean step of the unchanged scene:",
     "finest": f"The finest mesh of the cavity to 4 a over 0.5 ms on one core, with 80 % of the memory of this machine ({memory_of_the_machine() / 1e9:.0f} GB), and within one day. "
               "Bytes of a cell: difference of the two largest meshes, each run for some 20 steps; time and steps: of a whole run on fewer cells; steps grow with the "
-              "layers:"}
+              "layers:",
+    "largest": f"The largest octant in dry sand that the free memory takes, all but {LEFT / 1e9:g} GB, run for some steps on one core, against what the "
+               "smaller ones let expect:"}
 shown = {name: common.markdown_table(rows) for name, rows in tables.items()}
 print("\n" + "\n\n".join(shown.values()), flush=True)
 if study.write:
