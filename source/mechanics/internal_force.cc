@@ -44,6 +44,11 @@ void ElementChoice::declare_parameters(Parameters &parameters)
                           "b2: spreads strong shocks over a few cells. 0 with b1 = 0 switches the viscosity off.");
   parameters.add_flag("Bulk viscosity in expansion", viscosity_in_expansion,
                       "Let the linear part act in expansion, too: releases into yielding material do not ring.");
+  parameters.add_choice(
+    "Bulk viscosity form", viscosity_form, {"volumetric", "directional"},
+    "Volumetric: a pressure over the rate of volume. Directional: a stress along the directions in which "
+    "the mesh is compressed, for shocks in gas that converge or spread. At second order it also holds "
+    "shear and the flow around a cavity back: cavities in soil are better off without.");
 }
 
 void KinematicsChoice::declare_parameters(Parameters &parameters)

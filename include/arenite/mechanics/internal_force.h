@@ -26,8 +26,11 @@ struct ElementChoice
   double       hourglass_coefficient = 0.05;
   std::string  volumetric_strain     = "pointwise";
 
-  double linear_viscosity = 0.06, quadratic_viscosity = 1.2; ///< of blocks with a law of their own
-  bool   viscosity_in_expansion = false;
+  double      linear_viscosity = 0.06, quadratic_viscosity = 1.2; ///< of blocks with a law of their own
+  bool        viscosity_in_expansion = false;
+  std::string viscosity_form         = "volumetric";
+
+  bool directional_viscosity() const { return viscosity_form == "directional"; }
 
   void declare_parameters(Parameters &);
   void finalize(const Parameters &);

@@ -2,6 +2,7 @@
 
 #include <arenite/base/stopwatch.h>
 #include <arenite/materials/batch_law.h>
+#include <arenite/mechanics/bulk_viscosity.h>
 #include <arenite/mechanics/cell_batches.h>
 #include <arenite/mechanics/internal_force.h>
 #include <arenite/mechanics/point_motion.h>
@@ -19,14 +20,9 @@ namespace Arenite
 ///
 ///   gather -> gradients (PointOperators) -> strain increment and rotation (PointMotion) -> law, once per batch -> q -> P -> scatter
 ///
-/// sigma = law - q I;  P = J sigma F^-T at finite strain, sigma at small strain. Bulk viscosity (von Neumann & Richtmyer; Landshoff)
-///
-///   q = rho l (b2^2 l |D| + b1 c) |D|   in compression (D = tr d < 0);   q = - rho l b1 c D in expansion where that is wanted
-///
-/// with the length l of a cell, over its degree, in the direction of straining: l = |d|/|A d|, A = d xi/d x; uniaxial straining of a
-/// brick finds its side. The linear term takes sqrt(dim)/|A| where that is shorter: with l alone it would be steered by the smallest motions
-/// across slender cells, which it then excites. The work -(q_n J_n + q J)/2 tr(d eps) per reference volume is what the nodal forces of q take out of the motion;
-/// the law receives it as heat.
+/// sigma = law + sigma_q of the bulk viscosity (BulkViscosity), of which sigma_q = - q I in the volumetric form; P = J sigma F^-T at finite
+/// strain, sigma at small strain. The work (J_n sigma_q,n + J sigma_q) : d eps/2 per reference volume, sigma_q,n turned like the stress, is what
+/// the nodal forces take out of the motion; the law receives it as heat.
 ///
 /// Step: an element alone is stable up to dt with g (c^2 dt^2/4 + nu dt/2) = 1 for a viscosity nu (StableTimeStep has the reason): g =
 /// r |A|^2 with the ratio r between the largest eigenvalue of the element's M^-1 K and c^2 |A|^2, from power iterations on the first
@@ -51,6 +47,7 @@ public:
     , finite(kinematics.finite_strain())
     , polar(kinematics.polar())
     , viscous_hourglass(element.hourglass_control == "viscous")
+    , n_viscous(element.directional_viscosity() ? 6 : 1)
     , n_history(static_cast<unsigned int>(this->law->history_names().size()))
     , elastic(make_elastic_force<dim, W>(element, at_rest, block, symmetry))
   {
@@ -78,7 +75,7 @@ public:
     points.stores_points     = true;
     points.stress.resize(6 * n, 0.);
     points.history.resize(n_history * n, 0.);
-    points.bulk_viscosity.resize(n, 0.);
+    points.bulk_viscosity.resize(n_viscous * n, 0.);
     points.wave_speed.resize(n, 0.);
     points.stored.resize(n, 0.);
     points.frequency.resize(batches.size() * W, 0.);
@@ -208,8 +205,7 @@ public:
           else
             for (int q = 0; q < n_points; ++q)
               value =
-                std::max(value,
-                         std::abs(points.bulk_viscosity[(std::size_t(place / W) * n_points + q) * W + place % W]));
+                std::max(value, std::abs(shown_viscosity(points, n_viscous, place / W * n_points + q, W, place % W)));
           per_cell[batches.cells[place]] = static_cast<float>(value);
         }
   }
@@ -305,7 +301,7 @@ public:
 
   std::string description() const override
   {
-    const unsigned int n = 6 + n_history + 3;
+    const unsigned int n = packing.n_values();
     return this->kinematics.kinematics + (finite ? ", " + this->kinematics.rate + " rate" : "") + ", " +
            std::to_string(8 * n) + " B/point, " + std::to_string(n_points) + (n_points == 1 ? " point" : " points") +
            " per cell, " + std::to_string(W) + (W == 1 ? " lane" : " lanes");
@@ -344,11 +340,11 @@ public:
         Number zero[dim][dim] = {};
         Motion motion;
         move(H[q], zero, h[q], Number(0.), motion);
-        const double viscosity = at(points.bulk_viscosity, 0, 1);
+        const auto viscosity = viscous_stress<Number>(points, n_viscous, point * W);
         for (int k = 0; k < 6; ++k)
-          v[k] = at(points.stress, k, 6) - (k < 3 ? viscosity : 0.);
+          v[k] = at(points.stress, k, 6) - lane(viscosity[k], lane_of_cell);
         v[6] = law->density() / lane(motion.J, lane_of_cell);
-        v[7] = viscosity;
+        v[7] = shown_viscosity(points, n_viscous, point, W, lane_of_cell);
         v[8] = at(points.wave_speed, 0, 1);
         for (unsigned int k = 0; k < n_history; ++k)
           v[9 + k] = at(points.history, k, n_history);
@@ -558,6 +554,7 @@ private:
         SymTensor<Number> s;
         for (int k = 0; k < 3; ++k)
           s[k] = load<Number>(&points.stress[6 * at + k * W]);
+        s -= viscous_stress<Number>(points, n_viscous, at);
         Number F[dim][dim], C[dim][dim];
         Shape::deformation(H[q], F);
         Number J = cofactors(F, C);
@@ -565,7 +562,7 @@ private:
           J *= Number(1.) + h[q];
         volume += operators.weight[q];
         mean_J += operators.weight[q] * J;
-        mean_pressure += operators.weight[q] * (pressure(s) + load<Number>(&points.bulk_viscosity[at]));
+        mean_pressure += operators.weight[q] * pressure(s);
       }
     mean_pressure *= Number(1.) / volume;
     mean_J *= Number(1.) / volume;
@@ -577,12 +574,12 @@ private:
   std::unique_ptr<const BatchLaw>     law;
   const dealii::types::material_id    block;
   const bool                          finite, polar, viscous_hourglass;
-  const unsigned int                  n_history;
-  std::unique_ptr<InternalForce<dim>> elastic, as_fluid; ///< for mass, eigenvalues and forces without points
+  const unsigned int                  n_viscous, n_history; ///< numbers of a point: bulk viscosity, history of the law
+  std::unique_ptr<InternalForce<dim>> elastic, as_fluid;    ///< for mass, eigenvalues and forces without points
   const VectorType                   *positions = nullptr;
   CellBatches<dim, W>                 batches;
-  const PointPacking                  packing{n_points, W, n_history, Element::has_hourglass_control ? n_amplitudes : 0,
-                             !viscous_hourglass};
+  const PointPacking                  packing{
+    n_points, W, n_history, n_viscous, Element::has_hourglass_control ? n_amplitudes : 0, !viscous_hourglass};
 };
 } // namespace Arenite
 

@@ -49,8 +49,10 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
   // kinematics, viscosity
   Number strain[n_points][6], density_old[n_points], density[n_points], heat[n_points], stored_old[n_points],
     dissipated[n_points], by_volume[n_points], viscous_work[n_points], size[n_points]; // |A|^2
-  const double rho_0 = law->density(), b1 = element.linear_viscosity, b2 = element.quadratic_viscosity;
-  Number       largest_rate = Number(0.), viscosity[n_points];
+  const double rho_0 = law->density();
+  const bool   viscous =
+    dt_last > 0. && !points.quasi_static && (element.linear_viscosity > 0. || element.quadratic_viscosity > 0.);
+  Number largest_rate = Number(0.), viscosity[n_points];
   for (int q = 0; q < n_points; ++q)
     {
       const std::size_t at = (first + q) * W;
@@ -66,27 +68,30 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
 
       Number A[dim][dim];
       Shape::metric(operators.metric[q], H[q], finite, A);
-      size[q]            = Shape::square_norm(A);
-      const Number q_old = load<Number>(&points.bulk_viscosity[at]);
-      Number       q_new = Number(0.);
-      viscosity[q]       = Number(0.);
-      if ((b1 > 0. || b2 > 0.) && dt_last > 0. && !points.quasi_static)
+      size[q] = Shape::square_norm(A);
+      BulkViscosity<dim, Number> bulk{element, density[q], load<Number>(&points.wave_speed[at]),
+                                      Operators::length_of_unit};
+      if (n_viscous == 1)
         {
-          const Number c           = load<Number>(&points.wave_speed[at]),
-                       l           = Number(Operators::length_of_unit) * Shape::length_along(m.strain, A),
-                       shortest    = Number(Operators::length_of_unit) * Shape::mean_length(A);
-          const auto   compression = D < Number(0.);
-          const Number linear      = density[q] * Arenite::min<Number>(l, shortest) * Number(b1) * c,
-                       quadratic   = density[q] * Number(b2 * b2) * l * l;
-          q_new                    = Arenite::select<Number>(compression, Number((quadratic * -D + linear) * -D),
-                                          Number(Number(element.viscosity_in_expansion ? -1. : 0.) * linear * D));
-          viscosity[q] =
-            (linear + Arenite::select<Number>(compression, Number(Number(-2.) * quadratic * D), Number(0.))) /
-            density[q];
+          const Number q_old = load<Number>(&points.bulk_viscosity[at]),
+                       q_new = viscous ? bulk.volumetric(m.strain, D, A) : Number(0.);
+          store<Number>(q_new, &points.bulk_viscosity[at]);
+          viscous_work[q] =
+            Number(-0.5) * volume_strain * (finite ? Number(q_old * J_old + q_new * J) : Number(q_old + q_new));
         }
-      store<Number>(q_new, &points.bulk_viscosity[at]);
-      viscous_work[q] =
-        Number(-0.5) * volume_strain * (finite ? Number(q_old * J_old + q_new * J) : Number(q_old + q_new));
+      else
+        {
+          if (finite)
+            m.turn(&points.bulk_viscosity[6 * at]);
+          const SymTensor<Number> old = viscous_stress<Number>(points, n_viscous, at);
+          const SymTensor<Number> now = viscous ? bulk.directional(m.strain, dt, A) : SymTensor<Number>();
+          for (int k = 0; k < 6; ++k)
+            store<Number>(now[k], &points.bulk_viscosity[6 * at + k * W]);
+          viscous_work[q] =
+            Number(-0.5) * (finite ? Number(J_old * contract(old, m.strain) + J * contract(now, m.strain))
+                                   : Number(contract(old, m.strain) + contract(now, m.strain)));
+        }
+      viscosity[q]  = bulk.largest;
       heat[q]       = viscous_work[q] * Number(1. / rho_0) + hourglass_heat;
       stored_old[q] = load<Number>(&points.stored[at]);
       if (finite)
@@ -107,8 +112,9 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
 
   // energies, the step
   const bool per_present_volume = law->energy_per_present_volume();
-  Number energy = Number(0.), loss = Number(0.), viscous = Number(0.), volume_change = Number(0.), volume = Number(0.);
-  Number frequency = Number(0.), inverse_step = Number(0.);
+  Number     energy = Number(0.), loss = Number(0.), by_viscosity = Number(0.), volume_change = Number(0.),
+         volume          = Number(0.);
+  Number       frequency = Number(0.), inverse_step = Number(0.);
   const Number shape = load<Number>(&points.ratio[batch * W]);
   for (int q = 0; q < n_points; ++q)
     {
@@ -118,7 +124,7 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
       const bool with_volume = finite || !per_present_volume;
       energy += w * (with_volume ? Number(J * stored) : stored);
       loss += w * (with_volume ? Number(Number(0.5) * (J + J_old) * dissipated[q]) : dissipated[q]);
-      viscous += w * viscous_work[q];
+      by_viscosity += w * viscous_work[q];
       volume += w;
       if (!per_present_volume)
         volume_change -= w * Number(0.5) * (J + J_old) * by_volume[q];
@@ -158,7 +164,7 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
     {
       points.stored_energy += lane(energy, l);
       points.dissipated += lane(loss, l);
-      points.viscous_work += lane(viscous, l);
+      points.viscous_work += lane(by_viscosity, l);
       points.volume_change += lane(volume_change, l);
       points.hourglass_work += lane(hourglass, l);
       note_step(points, batch, l);
@@ -252,13 +258,12 @@ void LawForce<Element, W>::integrate(const unsigned int batch, const Operators &
     find_means(batch, operators, H, h, points, mean_pressure, mean_J);
   for (int q = 0; q < n_points; ++q)
     {
-      const std::size_t at  = (first + q) * W;
-      const Number      vis = load<Number>(&points.bulk_viscosity[at]);
+      const std::size_t at = (first + q) * W;
       SymTensor<Number> s;
       for (int k = 0; k < 6; ++k)
         s[k] = load<Number>(&points.stress[6 * at + k * W]);
-      if constexpr (!Element::mean_dilatation)
-        s -= spherical(vis);
+      if (n_viscous == 6 || !Element::mean_dilatation)
+        s -= viscous_stress<Number>(points, n_viscous, at);
       if (!finite)
         {
           if constexpr (Element::mean_dilatation)

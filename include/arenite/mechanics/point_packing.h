@@ -6,16 +6,17 @@
 
 namespace Arenite
 {
-/// The numbers of one cell in the arrays of a block with a law of its own, in an order of their own: [point][stress, history, bulk viscosity,
-/// wave speed, stored energy, one that is not kept here], then frequency, 1/step, ratio, hourglass energy and forces of the cell.
+/// The numbers of one cell in the arrays of a block with a law of its own, in an order of their own: [point][stress, history, bulk
+/// viscosity, wave speed, stored energy, one that is not kept here], then frequency, 1/step, ratio, hourglass energy and forces of the cell.
 struct PointPacking
 {
   int          n_points, n_lanes;
   unsigned int n_history;
+  unsigned int n_viscous;       ///< of the bulk viscosity: 1 or 6
   int          n_amplitudes;    ///< hourglass forces of a cell; 0: none
   bool         amplitudes_last; ///< they are elastic and come from increments, so that nothing else says what they are
 
-  unsigned int n_values() const { return 6 + n_history + 3; }
+  unsigned int n_values() const { return 6 + n_history + n_viscous + 2; }
 
   std::vector<CellRecord::OfCell> of_cell(const int dim) const
   {
@@ -56,7 +57,9 @@ struct PointPacking
           copy(points.stress[(6 * point + k) * n_lanes + lane], *values++);
         for (unsigned int k = 0; k < n_history; ++k)
           copy(points.history[(n_history * point + k) * n_lanes + lane], *values++);
-        for (auto *array : {&points.bulk_viscosity, &points.wave_speed, &points.stored})
+        for (unsigned int k = 0; k < n_viscous; ++k)
+          copy(points.bulk_viscosity[(n_viscous * point + k) * n_lanes + lane], *values++);
+        for (auto *array : {&points.wave_speed, &points.stored})
           copy((*array)[point * n_lanes + lane], *values++);
       }
     for (auto *array : {&points.frequency, &points.inverse_step, &points.ratio})

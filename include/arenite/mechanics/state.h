@@ -16,11 +16,12 @@ class StateArchive;
 /// answer with its elastic stiffness at rest.
 struct PointData
 {
-  dealii::AlignedVector<double> stress;         ///< [batch][point][6][lane], Cauchy [Pa]
-  dealii::AlignedVector<double> history;        ///< [batch][point][n_history][lane]
-  dealii::AlignedVector<double> bulk_viscosity; ///< [batch][point][lane], q [Pa]
-  dealii::AlignedVector<double> wave_speed;     ///< [batch][point][lane] [m/s]
-  dealii::AlignedVector<double> stored;         ///< [batch][point][lane], per present volume [J/m^3]
+  dealii::AlignedVector<double> stress;  ///< [batch][point][6][lane], Cauchy [Pa]
+  dealii::AlignedVector<double> history; ///< [batch][point][n_history][lane]
+  dealii::AlignedVector<double>
+    bulk_viscosity; ///< [batch][point][n][lane], q, or of the directional form -sigma_q with n = 6 [Pa]
+  dealii::AlignedVector<double> wave_speed;   ///< [batch][point][lane] [m/s]
+  dealii::AlignedVector<double> stored;       ///< [batch][point][lane], per present volume [J/m^3]
   dealii::AlignedVector<double> frequency;    ///< [batch][lane], square of the cell's largest, without damping [1/s^2]
   dealii::AlignedVector<double> inverse_step; ///< [batch][lane], of the longest stable step of the cell [1/s]
   dealii::AlignedVector<double>
