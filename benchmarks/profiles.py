@@ -80,11 +80,12 @@ class Profile:
         return float(places[i] + (values[i] - level) / (values[i] - values[i + 1]) * (places[i + 1] - places[i]))
 
 
-def read(run, name, row=-1, rest=None, power=0):
-    """The profile of one row. rest: density of points without a column of it."""
+def read(run, name, row=-1, rest=None, power=0, direction=None):
+    """The profile of one row. rest: density of points without a column of it. direction: number of that of the points, from 1; by default all are of one."""
     table = run.table(f"receivers-{name}.csv")
     with open(run.directory / f"receivers-{name}-points.csv") as stream:
         points = [line.split(",") for line in stream.read().splitlines()[1:]]
+    points = [point for point in points if direction is None or point[0].strip().startswith(f"d{direction}r")]
     names, places = [p[0].strip() for p in points], numpy.array([[float(x) for x in p[1:4]] for p in points])
     X = numpy.sqrt((places ** 2).sum(axis=1))
     space = [c for c in "xyzr" if f"{names[0]}.velocity_{c} [m/s]" in table]
