@@ -110,6 +110,30 @@ BOOST_AUTO_TEST_CASE(water_bounds_the_strength)
   BOOST_TEST(law.skeleton.surface.failure(3. * 5e8).value > 50. * j);
 }
 
+// A step of the largest volume strain makes the pores stiffer by half: dK/dp of the mixture is that of differences, 1e-5 of it with increments of 1e-3 of
+// p + p_a. At rest that is (1 + g)/(part of air) - 1 but for water and grains, stiffer by 1e-4, and without air the law asks for nothing.
+BOOST_AUTO_TEST_CASE(limit_of_volume_strains)
+{
+  const UndrainedCap law   = example("wet sand");
+  const auto         batch = batch_of(law);
+  BOOST_TEST(batch.limits_volume_change());
+  BOOST_TEST(!batch_of(example("saturated sand")).limits_volume_change());
+  for (const double p : {0., 1e4, 1e6, 1e8, 3e9})
+    {
+      const double d       = 1e-3 * (p + law.pores.air_pressure);
+      const auto   modulus = [&](const double at) {
+        const auto V = law.pores.volume<double>(at);
+        return V.volume / V.compliance;
+      };
+      UndrainedCap::History<double> history = law.initial_history();
+      history.pore_pressure                 = p;
+      BOOST_TEST(0.5 / law.volume_limit(history) == (modulus(p + d) - modulus(p - d)) / (2. * d), tolerance(1e-5));
+    }
+  const double air = law.pores.fraction[0];
+  BOOST_TEST(law.pores.stiffening(0.) == (1. + law.pores.exponent[0]) / air - 1., tolerance(1e-2));
+  BOOST_TEST(law.pores.stiffening(3e9) < 10.);
+}
+
 // While air is left, the pores carry the pressure of the air that is compressed without exchange of heat, p_a (V/V_0)^-1.4: the water and
 // the grains hardly change their volume (part p/K_w of it). Then the mixture takes over: the stiffness is that of grains and water.
 BOOST_AUTO_TEST_CASE(air_closes_first)

@@ -30,6 +30,7 @@ struct PointBatch
   double *stored           = nullptr; ///< [point][lane], per present volume [J/m^3]
   double *dissipated       = nullptr; ///< [point][lane], of this step, per present volume [J/m^3]
   double *stored_by_volume = nullptr; ///< [point][lane], Response::stored_by_volume; not wanted if null
+  double *volume_limit     = nullptr; ///< [point][lane], see BatchLaw::limits_volume_change(); not wanted if null
   double  substeps         = 1.;      ///< most parts into which the law divided the step of a point
 };
 
@@ -59,6 +60,9 @@ public:
   virtual int    tensor_history() const = 0; ///< first of six entries of the history that turn with the point; -1: none
   virtual double viscosity_time() const = 0; ///< of a viscous stress in proportion to the stiffness [s]; 0: none
   virtual double relaxation_time_at_rest() const = 0; ///< of an overstress at rest [s]; 0: not known
+
+  /// Whether states may stiffen much over one step; update() then says how large the next volume strain should be at most.
+  virtual bool limits_volume_change() const = 0;
 
   /// Set the history of a point, in the order of history_names(), to one that goes with @p stress [Pa] without any strain; the largest past
   /// stress was @p overconsolidation times as large. @return why the law cannot begin so, or nothing
@@ -137,6 +141,14 @@ struct HasRelaxationTime<Law, std::void_t<decltype(std::declval<const Law &>().r
   : std::true_type
 {};
 
+/// Laws may say how large a volume strain of one step may be: `Number volume_limit(const History<Number> &) const`.
+template <typename Law, typename = void>
+struct HasVolumeLimit : std::false_type
+{};
+template <typename Law>
+struct HasVolumeLimit<Law, std::void_t<decltype(std::declval<const Law &>().limits_volume_change())>> : std::true_type
+{};
+
 /// Laws may begin under a stress.
 template <typename Law, typename = void>
 struct BeginsUnderStress : std::false_type
@@ -194,6 +206,9 @@ public:
         store<Number>(response.dissipated, batch.dissipated + at);
         if (batch.stored_by_volume)
           store<Number>(response.stored_by_volume, batch.stored_by_volume + at);
+        if constexpr (HasVolumeLimit<Law>::value)
+          if (batch.volume_limit)
+            store<Number>(law.volume_limit(history), batch.volume_limit + at);
         batch.substeps = std::max(batch.substeps, response.substeps);
       }
   }
@@ -231,6 +246,14 @@ public:
       return law.relaxation_time_at_rest();
     else
       return 0.;
+  }
+
+  bool limits_volume_change() const override
+  {
+    if constexpr (HasVolumeLimit<Law>::value)
+      return law.limits_volume_change();
+    else
+      return false;
   }
 
   std::string begin_under(const SymTensor<double> &stress, const double overconsolidation,

@@ -71,6 +71,25 @@ struct ThreePhaseMixture
     return result;
   }
 
+  /// dK/dp = V V''/V'^2 - 1 at the pressure p above p_a: (1 + g)/(part of air) at rest with little air, some 7 without.
+  template <typename Number>
+  Number stiffening(const Number &p) const
+  {
+    Number volume(0.), compliance(0.), fall(0.); // V, -dV/dp, d^2V/dp^2
+    for (int i = 0; i < 3; ++i)
+      if (fraction[i] > 0.)
+        {
+          const Number base = Number(1.) + Number(exponent[i] / modulus_of[i]) * p;
+          const Number part = Number(fraction[i]) * Arenite::exponential<Number>(Number(-1. / exponent[i]) *
+                                                                                 Arenite::logarithm<Number>(base));
+          const Number by   = Number(1.) / (base * Number(modulus_of[i]));
+          volume            = volume + part;
+          compliance        = compliance + part * by;
+          fall              = fall + Number(1. + exponent[i]) * part * by * by;
+        }
+    return volume * fall / (compliance * compliance) - Number(1.);
+  }
+
   template <typename Number>
   EquationOfStateResponse<Number> update(const VolumeChange<Number> &change, NoHistory<Number> &) const
   {

@@ -81,6 +81,16 @@ struct UndrainedCap
     return response;
   }
 
+  bool limits_volume_change() const { return pores.fraction[0] > 0.; }
+
+  /// The volume strain over which the pores stiffen by half of their modulus: a fifth of what is left of the air, more than any step takes
+  /// when that is closed. The mean pressure of a step that closes it is not the work of the step.
+  template <typename Number>
+  Number volume_limit(const History<Number> &history) const
+  {
+    return Number(0.5) / pores.stiffening(history.pore_pressure);
+  }
+
   double wave_speed_bound() const { return std::hypot(skeleton.wave_speed_bound(), pores.bulk_sound_speed_bound()); }
 
   template <typename Number>

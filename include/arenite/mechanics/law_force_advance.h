@@ -104,6 +104,9 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
 
   PointBatch law_batch = batch_of_points(points, batch, dt, strain, density_old, density, dissipated, by_volume);
   law_batch.heat       = reinterpret_cast<const double *>(heat);
+  Number volume_limit[n_points];
+  if (law->limits_volume_change())
+    law_batch.volume_limit = reinterpret_cast<double *>(volume_limit);
   {
     const Stopwatch watch(points.is_timed ? &points.law_seconds : nullptr);
     law->update(law_batch);
@@ -150,6 +153,10 @@ void LawForce<Element, W>::advance(const unsigned int batch, const Operators &op
   inverse_step *= square_root(Arenite::max<Number>(growth, Number(1.)));
   store<Number>(frequency, &points.frequency[batch * W]);
   inverse_step = Arenite::max<Number>(inverse_step, Number(largest_rate * Number(1. / largest_volume_change)));
+  if (law_batch.volume_limit)
+    for (int q = 0; q < n_points; ++q)
+      inverse_step = Arenite::max<Number>(inverse_step, Number(Arenite::absolute<Number>(trace(motion[q].strain)) /
+                                                               (Number(dt) * volume_limit[q])));
   store<Number>(inverse_step, &points.inverse_step[batch * W]);
   store<Number>(loss / volume * Number(dt_last > 0. ? 1. / dt_last : 0.), &points.dissipation[batch * W]);
   if constexpr (Element::has_hourglass_control)
