@@ -2,6 +2,7 @@
 #include <arenite/base/state_archive.h>
 #include <arenite/io/files.h>
 
+#include <boost/archive/archive_exception.hpp>
 #include <boost/crc.hpp>
 
 #include <cerrno>
@@ -10,6 +11,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <system_error>
+#include <typeinfo>
 #include <unistd.h>
 #include <vector>
 
@@ -27,18 +29,24 @@ std::string create_file(const std::string &name, const std::function<void(std::o
   std::ofstream file(name, std::ios::binary);
   if (!file)
     return write_problem(name);
+  bool is_complete = false;
   try
     {
       write(file);
+      file.close(); // file systems over the network report a full disk only here
+      is_complete = bool(file);
     }
+  catch (const boost::archive::archive_exception &)
+    {} // archives write past the stream, whose state tells nothing
+  catch (const std::bad_cast &)
+    {} // and may leave a buffer behind that cannot be closed
   catch (const std::exception &)
     {
       // writers of deal.II throw when the stream is bad, everything else is not about files
       if (file)
         throw;
     }
-  file.close(); // file systems over the network report a full disk only here
-  if (file)
+  if (is_complete)
     return "";
   const std::string problem = write_problem(name);
   std::error_code   ignored;

@@ -178,15 +178,18 @@ def limits(runs):
 
 
 def full_disk(runs):
-    """A full disk ends a run with exit code 4 and the checkpoint before in place."""
+    """A full disk ends a run with exit code 4 and the checkpoint before in place, whichever file it is that fills it."""
     slow = ["--set", "Mesh/Cells=800"]
-    with disk(runs.folder, ["700k"]) as place:
-        out = place / "output"
-        runs.expect(4, "disk full", out, *slow, "--set", "Output/Checkpoint steps=300", says=["cannot be written"])
-        if not checkpoints(out):
-            runs.found.append("disk full: no checkpoint is left")
-        if (out / "checkpoint.new").exists():
-            runs.found.append("disk full: half a checkpoint is left")
+    for size in ("640k", "700k", "720k", "800k"):  # in cells, at their end, at the manifest, at a table
+        folder = runs.folder / size
+        folder.mkdir()
+        with disk(folder, [size]) as place:
+            out = place / "output"
+            runs.expect(4, size, out, *slow, "--set", "Output/Checkpoint steps=300", says=["cannot be written"])
+            if not checkpoints(out):
+                runs.found.append(f"{size}: no checkpoint is left")
+            if (out / "checkpoint.new").exists():
+                runs.found.append(f"{size}: half a checkpoint is left")
 
 
 if __name__ == "__main__":
