@@ -73,7 +73,9 @@ struct BulkViscosity
                     V(V(length_of_unit) * Shape::mean_length(A)), V(1.));
   }
 
-  ARENITE_INLINE SymTensor<V> directional(const SymTensor<V> &strain, const double dt, const V (&A)[dim][dim])
+  /// Not inline: blocks with the other form would pay for its registers, 6 % of a step of a cheap law.
+  __attribute__((noinline)) SymTensor<V> directional(const SymTensor<V> &strain, const double dt,
+                                                     const V (&A)[dim][dim])
   {
     V d[dim][dim], s[dim][dim], acting[dim], q[dim];
     for (int i = 0; i < dim; ++i)
