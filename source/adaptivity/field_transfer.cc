@@ -1,5 +1,7 @@
 #include <arenite/adaptivity/field_transfer.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 namespace Arenite
 {
 using namespace dealii;
@@ -48,7 +50,10 @@ FieldTransfer<dim>::FieldTransfer(CellTransport<dim> &transport, const Discretiz
           for (unsigned int c = 0; c < field.n_components; ++c)
             numbers.push_back(field.before->local_element(field.n_components * nodes[i] + c));
     },
-    [this](const std::vector<Numbers> &children) { return join(children); });
+    [this](const std::vector<Numbers> &children) {
+      return combine(of_parent,
+                     [&](const unsigned int node) -> const Numbers & { return children[child_of_node[node]]; });
+    });
 }
 
 template <int dim>
@@ -58,20 +63,21 @@ void FieldTransfer<dim>::add(const VectorType &field)
   fields.push_back({&field, is_scalar ? 1u : dim, VectorType()});
 }
 
-/// Values of all fields at the nodes of a parent.
+/// Values of all fields at the nodes of a cell, of which node i follows from those of the cell with the numbers @p of_cell(i).
 template <int dim>
-std::vector<double> FieldTransfer<dim>::join(const std::vector<Numbers> &children) const
+template <typename OfCell>
+std::vector<double> FieldTransfer<dim>::combine(const std::vector<Weights> &weights, const OfCell &of_cell) const
 {
-  Numbers      result(children[0].size(), 0.);
-  unsigned int first = 0;
+  Numbers     result(of_cell(0).size(), 0.);
+  std::size_t first = 0;
   for (const Field &field : fields)
     {
-      for (unsigned int node = 0; node < of_parent.size(); ++node)
-        for (const auto &[i, weight] : of_parent[node])
-          for (unsigned int c = 0; c < field.n_components; ++c)
-            result[first + field.n_components * node + c] +=
-              weight * children[child_of_node[node]][first + field.n_components * i + c];
-      first += field.n_components * static_cast<unsigned int>(of_parent.size());
+      const unsigned int n = field.n_components;
+      for (unsigned int node = 0; node < weights.size(); ++node)
+        for (const auto &[i, weight] : weights[node])
+          for (unsigned int c = 0; c < n; ++c)
+            result[first + n * node + c] += weight * of_cell(node)[first + n * i + c];
+      first += n * weights.size();
     }
   return result;
 }
@@ -94,28 +100,15 @@ void FieldTransfer<dim>::interpolate()
   for (Field &field : fields)
     field.after.reinit(field.n_components == 1 ? discretization.node_partitioner : discretization.vector_partitioner);
   const std::vector<unsigned int> new_index = index_of_active_cells(discretization);
-  Numbers                         values;
-  transport.unpack(cargo,
-                   [&](const Cell &cell, const Numbers &numbers, const typename CellTransport<dim>::Change change) {
-                     if (change != CellTransport<dim>::Change::halved)
-                       return put(new_index[cell->active_cell_index()], numbers);
-                     for (unsigned int child = 0; child < cell->n_children(); ++child)
-                       if (cell->child(child)->is_locally_owned())
-                         {
-                           values.assign(numbers.size(), 0.);
-                           unsigned int first = 0;
-                           for (const Field &field : fields)
-                             {
-                               for (unsigned int node = 0; node < of_child[child].size(); ++node)
-                                 for (const auto &[i, weight] : of_child[child][node])
-                                   for (unsigned int c = 0; c < field.n_components; ++c)
-                                     values[first + field.n_components * node + c] +=
-                                       weight * numbers[first + field.n_components * i + c];
-                               first += field.n_components * static_cast<unsigned int>(of_child[child].size());
-                             }
-                           put(new_index[cell->child(child)->active_cell_index()], values);
-                         }
-                   });
+  transport.unpack(cargo, [&](const Cell &cell, const Numbers &numbers,
+                              const typename CellTransport<dim>::Change change) {
+    if (change != CellTransport<dim>::Change::halved)
+      return put(new_index[cell->active_cell_index()], numbers);
+    const auto of_parent_cell = [&](unsigned int) -> const Numbers & { return numbers; };
+    for (unsigned int child = 0; child < cell->n_children(); ++child)
+      if (cell->child(child)->is_locally_owned())
+        put(new_index[cell->child(child)->active_cell_index()], combine(of_child[child], of_parent_cell));
+  });
 }
 
 template <int dim>

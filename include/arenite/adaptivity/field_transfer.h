@@ -2,8 +2,6 @@
 
 #include <arenite/adaptivity/cell_transport.h>
 
-#include <deal.II/lac/full_matrix.h>
-
 #include <list>
 #include <vector>
 
@@ -46,7 +44,8 @@ private:
     VectorType        after;
   };
 
-  Numbers join(const std::vector<Numbers> &children) const;
+  template <typename OfCell>
+  Numbers combine(const std::vector<Weights> &, const OfCell &of_cell) const;
   void    put(unsigned int cell, const Numbers &values);
 
   CellTransport<dim>               &transport;
