@@ -265,7 +265,7 @@ bool MeshAdaptor<dim>::mark(Triangulation &triangulation, const Dynamics<dim> &d
       count[0] += front[index] && level < finest[index];
       count[1] += level < wanted[index];
       count[2] += quiet[index] && level > wanted[index];
-      if (level < finest[index] && (marks[index] >= 0. || layers_behind == layers))
+      if (level < finest[index] && marks[index] >= 0.)
         room = std::min(room, layers_of[index]);
     }
   room = Utilities::MPI::min(room, discretization.communicator);

@@ -49,6 +49,21 @@ struct ThreePhaseMixture
   NoHistory<double> initial_history() const { return {}; }
   double            reference_density() const { return density; }
 
+  /// Volume of one phase per volume of soil at rest, and its tangent modulus K_i + g_i p.
+  template <typename Number>
+  struct Phase
+  {
+    Number volume, modulus;
+  };
+  template <typename Number>
+  Phase<Number> phase_at(const int i, const Number &p) const
+  {
+    const Number base = Number(1.) + Number(exponent[i] / modulus_of[i]) * p;
+    return {Number(fraction[i]) *
+              Arenite::exponential<Number>(Number(-1. / exponent[i]) * Arenite::logarithm<Number>(base)),
+            base * Number(modulus_of[i])};
+  }
+
   /// V at the pressure p above p_a, and -dV/dp.
   template <typename Number>
   struct Volume
@@ -62,11 +77,9 @@ struct ThreePhaseMixture
     for (int i = 0; i < 3; ++i)
       if (fraction[i] > 0.)
         {
-          const Number base = Number(1.) + Number(exponent[i] / modulus_of[i]) * p;
-          const Number part = Number(fraction[i]) * Arenite::exponential<Number>(Number(-1. / exponent[i]) *
-                                                                                 Arenite::logarithm<Number>(base));
-          result.volume     = result.volume + part;
-          result.compliance = result.compliance + part / (base * Number(modulus_of[i]));
+          const Phase<Number> phase = phase_at<Number>(i, p);
+          result.volume             = result.volume + phase.volume;
+          result.compliance         = result.compliance + phase.volume / phase.modulus;
         }
     return result;
   }
@@ -79,13 +92,11 @@ struct ThreePhaseMixture
     for (int i = 0; i < 3; ++i)
       if (fraction[i] > 0.)
         {
-          const Number base = Number(1.) + Number(exponent[i] / modulus_of[i]) * p;
-          const Number part = Number(fraction[i]) * Arenite::exponential<Number>(Number(-1. / exponent[i]) *
-                                                                                 Arenite::logarithm<Number>(base));
-          const Number by   = Number(1.) / (base * Number(modulus_of[i]));
-          volume            = volume + part;
-          compliance        = compliance + part * by;
-          fall              = fall + Number(1. + exponent[i]) * part * by * by;
+          const Phase<Number> phase = phase_at<Number>(i, p);
+          const Number        by    = Number(1.) / phase.modulus;
+          volume                    = volume + phase.volume;
+          compliance                = compliance + phase.volume * by;
+          fall                      = fall + Number(1. + exponent[i]) * phase.volume * by * by;
         }
     return volume * fall / (compliance * compliance) - Number(1.);
   }
