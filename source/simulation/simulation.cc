@@ -462,7 +462,8 @@ bool Simulation<dim>::march(const OutputDirectory &directory)
   const bool follows_points = dynamics->stores_points();
   while (true)
     {
-      if (const Wish wish = scene.checkpoints.ask(state.step); wish != Wish::nothing)
+      // before the first step there is nothing to keep, and points know no step that is stable
+      if (const Wish wish = state.step > 0 ? scene.checkpoints.ask(state.step) : Wish::nothing; wish != Wish::nothing)
         {
           write_checkpoint(directory);
           if (wish == Wish::stop)
